@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cmath>
+#include <cstdio>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace lacuna {
+
+/// A run that left the range in which its results mean anything: not-a-number, runaway energy, an overlap
+/// beyond a radius, a particle that moves more than a tenth of its radius in a step.
+class unstable_run : public std::runtime_error {
+public:
+    /// \param what the message, complete
+    /// \param step the time step at which it was found
+    /// \param particle stable id of the particle concerned, -1 when it is none in particular
+    unstable_run(std::string const& what, long long step, long long particle)
+        : std::runtime_error(what), step_(step), particle_(particle) {}
+    long long step() const noexcept { return step_; }
+    long long particle() const noexcept { return particle_; }
+
+private:
+    long long step_;
+    long long particle_;
+};
+
+/// Shortest decimal form that reads back to the same value.
+inline std::string to_text(double value) {
+    char buffer[32];
+    for (int digits = 6; digits <= 17; ++digits) {
+        std::snprintf(buffer, sizeof buffer, "%.*g", digits, value);
+        if (std::isnan(value) || std::stod(buffer) == value) break;
+    }
+    return buffer;
+}
+
+/// Throws std::invalid_argument "field = value: must be rule".
+[[noreturn]] inline void refuse(std::string_view field, std::string_view value, std::string_view rule) {
+    throw std::invalid_argument(std::string(field) + " = " + std::string(value) + ": must be " + std::string(rule));
+}
+[[noreturn]] inline void refuse(std::string_view field, double value, std::string_view rule) {
+    refuse(field, std::string_view(to_text(value)), rule);
+}
+
+/// \name Checks of one value; each throws std::invalid_argument that names the field, the value and the rule.
+/// \{
+inline void require_finite(std::string_view field, double value) {
+    if (!std::isfinite(value)) refuse(field, value, "finite");
+}
+inline void require_positive(std::string_view field, double value) {
+    if (!(value > 0) || !std::isfinite(value)) refuse(field, value, "> 0 and finite");
+}
+inline void require_not_negative(std::string_view field, double value) {
+    if (!(value >= 0) || !std::isfinite(value)) refuse(field, value, ">= 0 and finite");
+}
+/// A limit that may be "never": not negative, infinity allowed.
+inline void require_limit(std::string_view field, double value) {
+    if (!(value >= 0)) refuse(field, value, ">= 0");
+}
+inline void require_in(std::string_view field, double value, double low, double high) {
+    if (!(value >= low && value <= high))
+        refuse(field, value, "from " + to_text(low) + " to " + to_text(high));
+}
+/// \}
+
+} // namespace lacuna

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cmath>
+#include <concepts>
+
+/// \file
+/// The functions in which laws are written, for plain numbers. core/pack.hpp and core/dual.hpp offer the same
+/// for a row of numbers and for a number with its derivatives; a formula that keeps to them works with all.
+
+namespace lacuna {
+
+/// What a comparison of two T gives: bool for plain and dual numbers, a lane mask for packs.
+template <class T>
+struct mask_of {
+    using type = bool;
+};
+template <class T>
+using mask_t = typename mask_of<T>::type;
+
+/// The number a scalar type is made of: double for double, pack<double, 8> and dual<double, 2>.
+template <class T>
+struct value_of {
+    using type = T;
+};
+template <class T>
+using value_t = typename value_of<T>::type;
+
+/// condition ? a : b, lane by lane.
+template <std::floating_point T>
+constexpr T select(bool condition, T a, T b) noexcept {
+    return condition ? a : b;
+}
+template <std::floating_point T>
+T sqrt(T x) noexcept {
+    return std::sqrt(x);
+}
+template <std::floating_point T>
+T abs(T x) noexcept {
+    return std::fabs(x);
+}
+template <std::floating_point T>
+constexpr T min(T a, T b) noexcept {
+    return b < a ? b : a;
+}
+template <std::floating_point T>
+constexpr T max(T a, T b) noexcept {
+    return a < b ? b : a;
+}
+/// Whether any lane holds.
+constexpr bool any(bool condition) noexcept { return condition; }
+constexpr bool all(bool condition) noexcept { return condition; }
+
+} // namespace lacuna

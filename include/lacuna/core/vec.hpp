@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <lacuna/core/scalar.hpp>
+
+namespace lacuna {
+
+/// A short column of N scalars of any kind (plain number, pack, dual): positions, velocities, forces.
+///
+/// Not an Eigen matrix on purpose: laws instantiate it with packs and duals, in loops where every temporary
+/// counts and in programs whose compile time counts; core/eigen.hpp converts.
+template <class T, int N>
+struct vec {
+    T element[N];
+
+    constexpr T& operator[](int i) noexcept { return element[i]; }
+    constexpr T const& operator[](int i) const noexcept { return element[i]; }
+    constexpr T* data() noexcept { return element; }
+    constexpr T const* data() const noexcept { return element; }
+    static constexpr int size() noexcept { return N; }
+
+    friend constexpr vec operator+(vec const& a, vec const& b) noexcept {
+        vec r{};
+        for (int i = 0; i < N; ++i) r[i] = a[i] + b[i];
+        return r;
+    }
+    friend constexpr vec operator-(vec const& a, vec const& b) noexcept {
+        vec r{};
+        for (int i = 0; i < N; ++i) r[i] = a[i] - b[i];
+        return r;
+    }
+    friend constexpr vec operator-(vec const& a) noexcept {
+        vec r{};
+        for (int i = 0; i < N; ++i) r[i] = -a[i];
+        return r;
+    }
+    friend constexpr vec operator*(vec const& a, T const& s) noexcept {
+        vec r{};
+        for (int i = 0; i < N; ++i) r[i] = a[i] * s;
+        return r;
+    }
+    friend constexpr vec operator*(T const& s, vec const& a) noexcept { return a * s; }
+    friend constexpr vec operator/(vec const& a, T const& s) noexcept { return a * (T(1) / s); }
+    constexpr vec& operator+=(vec const& b) noexcept { return *this = *this + b; }
+    constexpr vec& operator-=(vec const& b) noexcept { return *this = *this - b; }
+    constexpr vec& operator*=(T const& s) noexcept { return *this = *this * s; }
+    friend constexpr bool operator==(vec const& a, vec const& b) noexcept
+        requires std::floating_point<T>
+    {
+        for (int i = 0; i < N; ++i)
+            if (!(a[i] == b[i])) return false;
+        return true;
+    }
+};
+
+template <class T, int N>
+constexpr T dot(vec<T, N> const& a, vec<T, N> const& b) noexcept {
+    T sum = a[0] * b[0];
+    for (int i = 1; i < N; ++i) sum = sum + a[i] * b[i];
+    return sum;
+}
+template <class T, int N>
+constexpr T squared_norm(vec<T, N> const& a) noexcept {
+    return dot(a, a);
+}
+template <class T, int N>
+T norm(vec<T, N> const& a) noexcept {
+    if constexpr (N == 1)
+        return abs(a[0]);
+    else
+        return sqrt(dot(a, a));
+}
+/// Out-of-plane component of the product of two vectors in the plane.
+template <class T>
+constexpr T cross(vec<T, 2> const& a, vec<T, 2> const& b) noexcept {
+    return a[0] * b[1] - a[1] * b[0];
+}
+template <class T>
+constexpr vec<T, 3> cross(vec<T, 3> const& a, vec<T, 3> const& b) noexcept {
+    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+/// The vector turned by +90 degrees.
+template <class T>
+constexpr vec<T, 2> perpendicular(vec<T, 2> const& a) noexcept {
+    return {-a[1], a[0]};
+}
+/// Component by component: condition ? a : b.
+template <class T, int N>
+constexpr vec<T, N> select(mask_t<T> const& condition, vec<T, N> const& a, vec<T, N> const& b) noexcept {
+    vec<T, N> r{};
+    for (int i = 0; i < N; ++i) r[i] = select(condition, a[i], b[i]);
+    return r;
+}
+/// The vector, shortened to length `limit` where it is longer (limit >= 0).
+template <class T, int N>
+vec<T, N> clip_norm(vec<T, N> const& a, T const& limit) noexcept {
+    if constexpr (N == 1) {
+        return {max(-limit, min(limit, a[0]))};
+    } else {
+        T const length = norm(a);
+        auto const over = length > limit;
+        return select(over, a * (limit / select(over, length, T(1))), a);
+    }
+}
+
+/// How many components a rotation (spin, torque) has: one in the plane, three in space.
+template <int Dim>
+inline constexpr int rotation_dim = Dim == 2 ? 1 : 3;
+
+/// How many components a shear force has: its signed value along the tangent in 2D, a vector in space in 3D.
+template <int Dim>
+inline constexpr int shear_dim = Dim == 2 ? 1 : 3;
+
+} // namespace lacuna
