@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <new>
+#include <vector>
+
+#include <lacuna/core/pack.hpp>
+
+/// \file
+/// Records of four numbers: how the hot loops see a particle's place, velocity and forces.
+///
+/// A loop over pairs visits particles in no regular order. With one array per coordinate every number would be
+/// fetched alone; with records of four, one load brings four and a few shuffles turn W records into four packs.
+
+namespace lacuna {
+
+/// Allocator for arrays that start on a cache line.
+template <class T>
+struct aligned_allocator {
+    using value_type = T;
+    static constexpr std::align_val_t alignment{64};
+    aligned_allocator() = default;
+    template <class U>
+    aligned_allocator(aligned_allocator<U> const&) noexcept {}
+    T* allocate(std::size_t count) { return static_cast<T*>(::operator new(count * sizeof(T), alignment)); }
+    void deallocate(T* memory, std::size_t) noexcept { ::operator delete(memory, alignment); }
+    friend bool operator==(aligned_allocator, aligned_allocator) noexcept { return true; }
+};
+template <class T>
+using aligned_vector = std::vector<T, aligned_allocator<T>>;
+
+/// Four numbers side by side.
+template <class Real>
+using record = pack<Real, 4>;
+
+/// Column of records, one per particle or pair.
+template <class Real>
+class record_column {
+public:
+    void assign(std::size_t count, record<Real> const& value) {
+        data_.resize(4 * count);
+        for (std::size_t k = 0; k < count; ++k) set(k, value);
+    }
+    void resize(std::size_t count) { data_.resize(4 * count, Real(0)); }
+    std::size_t size() const noexcept { return data_.size() / 4; }
+    record<Real> operator[](std::size_t k) const noexcept { return record<Real>::load(data_.data() + 4 * k); }
+    void set(std::size_t k, record<Real> const& value) noexcept { value.store(data_.data() + 4 * k); }
+    /// Number `lane` of record `k`.
+    Real& at(std::size_t k, int lane) noexcept { return data_[4 * k + std::size_t(lane)]; }
+    Real at(std::size_t k, int lane) const noexcept { return data_[4 * k + std::size_t(lane)]; }
+    Real* data() noexcept { return data_.data(); }
+    Real const* data() const noexcept { return data_.data(); }
+
+private:
+    aligned_vector<Real> data_;
+};
+
+namespace detail {
+template <class V, class H>
+V join(H low, H high) noexcept {
+    if constexpr (sizeof(H) == 16 && sizeof(low[0]) == 8)
+        return __builtin_shufflevector(low, high, 0, 1, 2, 3);
+    else if constexpr (sizeof(H) == 32 && sizeof(low[0]) == 8)
+        return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
+    else if constexpr (sizeof(H) == 16)
+        return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
+    else
+        return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+}
+template <class H, class T>
+H load_native(T const* from) noexcept {
+    H r;
+    __builtin_memcpy(&r, from, sizeof(H));
+    return r;
+}
+} // namespace detail
+
+/// Fetches records index[0..W) and turns them: result[l][k] is number l of record index[k].
+template <class T, int W, class Index>
+std::array<pack<T, W>, 4> load_turned(T const* base, Index const* index) noexcept {
+    using P = pack<T, W>;
+    auto const at = [&](int k) { return base + 4 * std::ptrdiff_t(index[k]); };
+    if constexpr (sizeof(T) == 8 && W == 8) {
+        using quad = typename pack<T, 4>::native;
+        using full = typename P::native;
+        auto const two = [&](int a, int b) {
+            return detail::join<full>(detail::load_native<quad>(at(a)), detail::load_native<quad>(at(b)));
+        };
+        full const a = two(0, 2), b = two(1, 3), c = two(4, 6), d = two(5, 7);
+        full const ab0 = __builtin_shufflevector(a, b, 0, 8, 2, 10, 4, 12, 6, 14);
+        full const ab1 = __builtin_shufflevector(a, b, 1, 9, 3, 11, 5, 13, 7, 15);
+        full const cd0 = __builtin_shufflevector(c, d, 0, 8, 2, 10, 4, 12, 6, 14);
+        full const cd1 = __builtin_shufflevector(c, d, 1, 9, 3, 11, 5, 13, 7, 15);
+        return {P(full(__builtin_shufflevector(ab0, cd0, 0, 1, 4, 5, 8, 9, 12, 13))),
+                P(full(__builtin_shufflevector(ab1, cd1, 0, 1, 4, 5, 8, 9, 12, 13))),
+                P(full(__builtin_shufflevector(ab0, cd0, 2, 3, 6, 7, 10, 11, 14, 15))),
+                P(full(__builtin_shufflevector(ab1, cd1, 2, 3, 6, 7, 10, 11, 14, 15)))};
+    } else if constexpr (W == 4) {
+        using quad = typename P::native;
+        quad const a = detail::load_native<quad>(at(0)), b = detail::load_native<quad>(at(1));
+        quad const c = detail::load_native<quad>(at(2)), d = detail::load_native<quad>(at(3));
+        quad const ab0 = __builtin_shufflevector(a, b, 0, 4, 2, 6), ab1 = __builtin_shufflevector(a, b, 1, 5, 3, 7);
+        quad const cd0 = __builtin_shufflevector(c, d, 0, 4, 2, 6), cd1 = __builtin_shufflevector(c, d, 1, 5, 3, 7);
+        return {P(quad(__builtin_shufflevector(ab0, cd0, 0, 1, 4, 5))), P(quad(__builtin_shufflevector(ab1, cd1, 0, 1, 4, 5))),
+                P(quad(__builtin_shufflevector(ab0, cd0, 2, 3, 6, 7))), P(quad(__builtin_shufflevector(ab1, cd1, 2, 3, 6, 7)))};
+    } else if constexpr (sizeof(T) == 4 && W == 16) {
+        using quad = typename pack<T, 4>::native;
+        using half = typename pack<T, 8>::native;
+        using full = typename P::native;
+        auto const four = [&](int k) {
+            return detail::join<full>(
+                detail::join<half>(detail::load_native<quad>(at(k)), detail::load_native<quad>(at(k + 4))),
+                detail::join<half>(detail::load_native<quad>(at(k + 8)), detail::load_native<quad>(at(k + 12))));
+        };
+        full const a = four(0), b = four(1), c = four(2), d = four(3);
+        full const ab0 = __builtin_shufflevector(a, b, 0, 16, 2, 18, 4, 20, 6, 22, 8, 24, 10, 26, 12, 28, 14, 30);
+        full const ab1 = __builtin_shufflevector(a, b, 1, 17, 3, 19, 5, 21, 7, 23, 9, 25, 11, 27, 13, 29, 15, 31);
+        full const cd0 = __builtin_shufflevector(c, d, 0, 16, 2, 18, 4, 20, 6, 22, 8, 24, 10, 26, 12, 28, 14, 30);
+        full const cd1 = __builtin_shufflevector(c, d, 1, 17, 3, 19, 5, 21, 7, 23, 9, 25, 11, 27, 13, 29, 15, 31);
+        return {P(full(__builtin_shufflevector(ab0, cd0, 0, 1, 16, 17, 4, 5, 20, 21, 8, 9, 24, 25, 12, 13, 28, 29))),
+                P(full(__builtin_shufflevector(ab1, cd1, 0, 1, 16, 17, 4, 5, 20, 21, 8, 9, 24, 25, 12, 13, 28, 29))),
+                P(full(__builtin_shufflevector(ab0, cd0, 2, 3, 18, 19, 6, 7, 22, 23, 10, 11, 26, 27, 14, 15, 30, 31))),
+                P(full(__builtin_shufflevector(ab1, cd1, 2, 3, 18, 19, 6, 7, 22, 23, 10, 11, 26, 27, 14, 15, 30, 31)))};
+    } else {
+        std::array<P, 4> r;
+        for (int k = 0; k < W; ++k)
+            for (int l = 0; l < 4; ++l) r[std::size_t(l)].v[k] = at(k)[l];
+        return r;
+    }
+}
+
+/// Writes W records in a row: number l of record k is value[l][k].
+template <class T, int W>
+void store_turned(T* to, std::array<pack<T, W>, 4> const& value) noexcept {
+    if constexpr (sizeof(T) == 8 && W == 8) {
+        using full = typename pack<T, W>::native;
+        full const p = value[0].v, q = value[1].v, r = value[2].v, s = value[3].v;
+        full const pq0 = __builtin_shufflevector(p, q, 0, 8, 2, 10, 4, 12, 6, 14);
+        full const pq1 = __builtin_shufflevector(p, q, 1, 9, 3, 11, 5, 13, 7, 15);
+        full const rs0 = __builtin_shufflevector(r, s, 0, 8, 2, 10, 4, 12, 6, 14);
+        full const rs1 = __builtin_shufflevector(r, s, 1, 9, 3, 11, 5, 13, 7, 15);
+        auto const put = [&](int first, full two) {
+            pack<T, 4>(__builtin_shufflevector(two, two, 0, 1, 2, 3)).store(to + 4 * first);
+            pack<T, 4>(__builtin_shufflevector(two, two, 4, 5, 6, 7)).store(to + 4 * (first + 2));
+        };
+        put(0, __builtin_shufflevector(pq0, rs0, 0, 1, 8, 9, 2, 3, 10, 11));
+        put(1, __builtin_shufflevector(pq1, rs1, 0, 1, 8, 9, 2, 3, 10, 11));
+        put(4, __builtin_shufflevector(pq0, rs0, 4, 5, 12, 13, 6, 7, 14, 15));
+        put(5, __builtin_shufflevector(pq1, rs1, 4, 5, 12, 13, 6, 7, 14, 15));
+    } else {
+        for (int k = 0; k < W; ++k)
+            for (int l = 0; l < 4; ++l) to[4 * k + l] = value[std::size_t(l)].v[k];
+    }
+}
+
+} // namespace lacuna
