@@ -15,9 +15,21 @@
 /// A row of W numbers that one instruction handles, for the loops over pairs and particles.
 /// The only header with processor-specific code.
 
+// Packs wider than the target's registers (records of four doubles without AVX) are never part of an interface
+// between separately compiled objects: the compilers' warning about their calling convention does not apply.
+#if defined(__clang__)
+#pragma clang diagnostic ignored "-Wpsabi"
+#elif defined(__GNUC__)
+#pragma GCC diagnostic ignored "-Wpsabi"
+#endif
+
 namespace lacuna {
 
 namespace detail {
+template <class T, std::size_t Bytes>
+struct native_vector {
+    typedef T type __attribute__((vector_size(Bytes)));
+};
 template <std::size_t Bytes>
 struct lane_integer;
 template <>
@@ -37,7 +49,7 @@ struct pack;
 template <class T, int W>
 struct pack_mask {
     using lane_type = typename detail::lane_integer<sizeof(T)>::type;
-    typedef lane_type native __attribute__((vector_size(sizeof(T) * W)));
+    using native = typename detail::native_vector<lane_type, sizeof(T) * W>::type;
     native bits;
 
     bool operator[](int lane) const noexcept { return bits[lane] != 0; }
@@ -53,7 +65,7 @@ template <class T, int W>
 struct pack {
     static_assert(std::is_floating_point_v<T> && (W & (W - 1)) == 0);
     static constexpr int width = W;
-    typedef T native __attribute__((vector_size(sizeof(T) * W)));
+    using native = typename detail::native_vector<T, sizeof(T) * W>::type;
     native v;
 
     pack() = default;
