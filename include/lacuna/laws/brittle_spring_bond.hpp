@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <limits>
+#include <string>
+
+#include <lacuna/core/error.hpp>
+#include <lacuna/laws/pair_motion.hpp>
+
+namespace lacuna {
+
+/// Cross-section of a bond: A_c = 2 min(r_i, r_j) t in the plane (t: thickness), pi min(r_i, r_j)^2 in space.
+struct smaller_particle_area {
+    template <int Dim, class T>
+    static T area(T radius_i, T radius_j, T thickness) {
+        T const r = min(radius_i, radius_j);
+        if constexpr (Dim == 2)
+            return T(2) * r * thickness;
+        else
+            return T(3.14159265358979323846) * r * r;
+    }
+};
+
+/// The safety zone of the paper's Fig. 4: a rectangle. Beyond the tensile limit or the shear limit the bond
+/// breaks, and where both are exceeded in one step, in the mode whose limit is exceeded by the larger ratio.
+struct box_envelope {
+    template <class T>
+    struct verdict {
+        mask_t<T> broken, in_tension;
+    };
+    template <class T>
+    static verdict<T> judge(T normal, T shear, T tensile_limit, T shear_limit) {
+        auto const tension = normal > tensile_limit;
+        auto const sheared = shear > shear_limit;
+        auto const tension_leads = normal * shear_limit >= shear * tensile_limit;
+        return {tension || sheared, tension && (!sheared || tension_leads)};
+    }
+};
+
+/// Linear springs in tension, compression and shear, breaking at the paper's criterion (eq. 10, Fig. 4).
+///
+///   F_n = k_n * (d - L)                       L: distance at which the bond was made
+///   F_s <- F_s + k_s * slip
+///   F_n >  sigma_n A_c   breaks in tension
+///   |F_s| > sigma_s A_c  breaks in shear
+///   F_n < -sigma_n A_c   compression failure: the force stays at the limit, the bond remains (L follows)
+///
+/// The normal force is the total form of eq. 10's sum of increments: the two are equal up to rounding, also
+/// after compression failure, because the same L carries the plastic shortening.
+template <class Envelope = box_envelope, class Area = smaller_particle_area>
+struct brittle_spring_bond_with {
+    /// What one material contributes (Table 1).
+    struct material {
+        double normal_stiffness = 1e6;                                    ///< k_n, N/m
+        double shear_stiffness = 1e6;                                     ///< k_s, N/m
+        double tensile_strength = std::numeric_limits<double>::infinity(); ///< sigma_n, Pa; infinite: never breaks
+        double shear_strength = std::numeric_limits<double>::infinity();   ///< sigma_s, Pa
+
+        /// \throws std::invalid_argument naming field, value and rule.
+        void validate(std::string const& name) const {
+            require_positive(name + ".normal_stiffness", normal_stiffness);
+            require_not_negative(name + ".shear_stiffness", shear_stiffness);
+            require_limit(name + ".tensile_strength", tensile_strength);
+            require_limit(name + ".shear_strength", shear_strength);
+        }
+    };
+
+    template <class T>
+    struct parameters {
+        T normal_stiffness, normal_compliance, shear_stiffness, shear_compliance;
+        T tensile_strength, shear_strength; // Pa
+        T thickness;                        // m
+    };
+
+    template <class T, int Dim>
+    struct history {
+        T rest_distance;
+        vec<T, shear_dim<Dim>> shear_force;
+    };
+
+    /// Stiffness in series (harmonic mean), the smaller strength.
+    static parameters<double> combine(material const& a, material const& b, double thickness) {
+        auto const series = [](double x, double y) { return x > 0 && y > 0 ? 2 / (1 / x + 1 / y) : 0.0; };
+        // A finite "never", of single precision too, keeps zero times infinity out of the formula.
+        auto const weaker = [](double x, double y) { return min(min(x, y), 1e30); };
+        double const normal = series(a.normal_stiffness, b.normal_stiffness);
+        double const shear = series(a.shear_stiffness, b.shear_stiffness);
+        return {normal,
+                1 / normal,
+                shear,
+                shear > 0 ? 1 / shear : 0.0,
+                weaker(a.tensile_strength, b.tensile_strength),
+                weaker(a.shear_strength, b.shear_strength),
+                thickness};
+    }
+
+    /// A bond made at `distance`, without force.
+    template <class T, int Dim>
+    static history<T, Dim> initial(T distance, T /*touching_distance*/) {
+        return {distance, {}};
+    }
+
+    template <class T, int Dim>
+    static bond_response<T, Dim, history<T, Dim>> evaluate(parameters<T> const& p, pair_motion<T, Dim> const& m,
+                                                           history<T, Dim> const& h) {
+        T const area = Area::template area<Dim>(m.radius_i, m.radius_j, p.thickness);
+        T const limit = p.tensile_strength * area;
+        T const trial = p.normal_stiffness * (m.distance - h.rest_distance);
+        T const normal = max(trial, -limit);
+        T const rest = select(trial < -limit, m.distance + limit * p.normal_compliance, h.rest_distance);
+        auto const shear = h.shear_force + m.slip * p.shear_stiffness;
+        auto const verdict = Envelope::judge(normal, norm(shear), limit, p.shear_strength * area);
+        return {{normal,
+                 shear,
+                 {rest, shear},
+                 T(0.5) * (normal * normal * p.normal_compliance + squared_norm(shear) * p.shear_compliance),
+                 limit * (h.rest_distance - rest)},
+                verdict.broken,
+                verdict.in_tension};
+    }
+
+    template <class T>
+    static T stiffness(parameters<T> const& p) {
+        return p.normal_stiffness;
+    }
+};
+
+/// The paper's bond.
+using brittle_spring_bond = brittle_spring_bond_with<>;
+
+} // namespace lacuna

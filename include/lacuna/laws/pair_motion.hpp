@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <concepts>
+
+#include <lacuna/core/vec.hpp>
+
+/// \file
+/// What a law of a pair sees and what it answers. The sign convention of the whole library: the normal n points
+/// from particle i to particle j; a normal force is **positive in tension**; a shear force is the force on i,
+/// along the tangent (in 2D n turned by +90 degrees), positive for a positive slip of j against i.
+
+namespace lacuna {
+
+/// The relative motion of a pair in its own frame, over one time step (MODEL.md section 2).
+template <class T, int Dim>
+struct pair_motion {
+    T distance;                  ///< centre to centre, m
+    T radius_i, radius_j;        ///< m; a wall has radius 0
+    vec<T, shear_dim<Dim>> slip; ///< tangential displacement of j against i at the contact in this step, m
+    T normal_rate;               ///< rate of separation, m/s
+
+    T touching_distance() const noexcept { return radius_i + radius_j; }
+};
+
+/// What a law answers. H is the law's history.
+template <class T, int Dim, class H>
+struct pair_response {
+    T normal_force;                     ///< N, positive in tension
+    vec<T, shear_dim<Dim>> shear_force; ///< N, on particle i
+    H history;                          ///< what the law remembers for the next step
+    T stored_energy;                    ///< elastic energy in the pair, J
+    T dissipated_energy;                ///< turned into heat in this step (sliding, crushing), J
+};
+
+/// A bond's answer: in addition whether, and how, it fails in this step.
+template <class T, int Dim, class H>
+struct bond_response : pair_response<T, Dim, H> {
+    mask_t<T> broken;           ///< the bond fails
+    mask_t<T> broken_in_tension; ///< meaningful where broken: by tension (else by shear)
+};
+
+namespace detail {
+template <class Law, int Dim>
+concept pair_law_common =
+    requires(typename Law::material const& material, typename Law::template parameters<double> const& parameters,
+             pair_motion<double, Dim> const& motion, typename Law::template history<double, Dim> const& history) {
+        material.validate("material");
+        { Law::combine(material, material, 1.0) } -> std::same_as<typename Law::template parameters<double>>;
+        { Law::template initial<double, Dim>(1.0, 1.0) } -> std::same_as<typename Law::template history<double, Dim>>;
+        { Law::evaluate(parameters, motion, history).normal_force } -> std::convertible_to<double>;
+        { Law::stiffness(parameters) } -> std::convertible_to<double>;
+    };
+} // namespace detail
+
+/// A law of two particles in contact. It has
+///   - `material`: an aggregate of what one material contributes, with `validate(std::string const& name)`;
+///   - `parameters<T>`: an aggregate of T only, what the formula reads, made by `combine(material, material, thickness)`;
+///   - `history<T, Dim>`: an aggregate of T (and vec of T) only; a member `shear_force` turns with the pair;
+///     `initial<T, Dim>(distance, touching_distance)` is its state at zero force;
+///   - `evaluate(parameters<T>, pair_motion<T, Dim>, history<T, Dim>) -> pair_response`: the formula;
+///   - `stiffness(parameters)`: normal stiffness in N/m, for the viscous damping coefficient.
+template <class Law, int Dim>
+concept contact_law = detail::pair_law_common<Law, Dim> && requires(
+    typename Law::template parameters<double> const& parameters, pair_motion<double, Dim> const& motion,
+    vec<double, shear_dim<Dim>> const& shear) {
+    /// State that carries on the given forces of a bond that has just failed in shear.
+    { Law::hand_over(parameters, motion, 1.0, shear) } -> std::same_as<typename Law::template history<double, Dim>>;
+};
+
+/// A law of two bonded particles: as a contact law, and its answer says whether the bond fails.
+template <class Law, int Dim>
+concept bond_law = detail::pair_law_common<Law, Dim> && requires(
+    typename Law::template parameters<double> const& parameters, pair_motion<double, Dim> const& motion,
+    typename Law::template history<double, Dim> const& history) {
+    { Law::evaluate(parameters, motion, history).broken } -> std::convertible_to<bool>;
+    { Law::evaluate(parameters, motion, history).broken_in_tension } -> std::convertible_to<bool>;
+};
+
+} // namespace lacuna

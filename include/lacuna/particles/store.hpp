@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <lacuna/core/error.hpp>
+#include <lacuna/core/points.hpp>
+#include <lacuna/core/records.hpp>
+#include <lacuna/particles/packing.hpp>
+
+namespace lacuna {
+
+/// How a particle's mass follows from its radius.
+enum class mass_model {
+    disc,  ///< cylinder of the model's thickness: rho pi r^2 t, I = m r^2 / 2 (2D; MODEL.md section 1)
+    sphere ///< rho 4/3 pi r^3, I = 2/5 m r^2
+};
+
+/// Which of a particle's motions are prescribed: its velocity in these directions is never changed by forces.
+struct fixed_axes {
+    bool x = false, y = false, z = false, rotation = false;
+    static constexpr fixed_axes all() { return {true, true, true, true}; }
+};
+
+/// The particles, as the step reads and writes them.
+///
+/// Records of four numbers: 2D place {x, y, angle, radius}, velocity {v_x, v_y, spin, mass};
+/// 3D place {x, y, z, radius}, velocity {v_x, v_y, v_z, mass}, spin {w_x, w_y, w_z, 0}.
+/// Particles are stored in an order of the library's choice (`internal` index); the order in which they were
+/// given is their stable `id`. In 2D the orientation is kept as an angle: eq. 8's unit vector is
+/// (cos angle, sin angle), which integrates eq. 8 exactly and is of unit length by construction.
+template <class Real, int Dim>
+class particle_store {
+public:
+    using rec = record<Real>;
+    using point = vec<Real, Dim>;
+    using rotation = vec<Real, rotation_dim<Dim>>;
+
+    particle_store() = default;
+
+    /// \param packing the particles, in order of their ids
+    /// \param order order[internal] = id: a permutation; see spatial_order
+    /// \param density of each material, kg/m^3
+    /// \param thickness m, for mass_model::disc
+    /// \throws std::invalid_argument naming the particle and the value
+    particle_store(packing<Real, Dim> const& packing, std::span<std::int32_t const> order,
+                   std::span<double const> density, mass_model masses, double thickness)
+        : id_(order.begin(), order.end()), internal_(order.size()) {
+        std::size_t const n = packing.position.size();
+        if (packing.radius.size() != n) refuse("packing.radius.size()", double(packing.radius.size()), "one per particle");
+        if (packing.material.size() != n)
+            refuse("packing.material.size()", double(packing.material.size()), "one per particle");
+        place_.resize(n + ghosts);
+        velocity_.resize(n + ghosts);
+        if constexpr (Dim == 3) {
+            spin_.resize(n + ghosts);
+            quaternion_.assign(n, unit_quaternion());
+            inverse_inertia_.resize(n);
+        }
+        load_.resize(n);
+        inverse_mass_.resize(n);
+        radius_.resize(n);
+        inertia_.resize(n);
+        material_.resize(n);
+        for (std::size_t k = 0; k < n; ++k) {
+            auto const id = std::size_t(id_[k]);
+            internal_[id] = std::int32_t(k);
+            std::string const name = "particle " + std::to_string(id);
+            for (int axis = 0; axis < Dim; ++axis)
+                require_finite(name + ".position", double(packing.position[id][axis]));
+            double const r = double(packing.radius[id]);
+            require_positive(name + ".radius", r);
+            int const material = packing.material[id];
+            require_in(name + ".material", material, 0, double(density.size()) - 1);
+            double const rho = density[std::size_t(material)];
+            bool const disc = masses == mass_model::disc && Dim == 2;
+            double const mass = disc ? rho * std::numbers::pi * r * r * thickness : rho * 4 / 3 * std::numbers::pi * r * r * r;
+            double const inertia = (disc ? 0.5 : 0.4) * mass * r * r;
+            if (!(mass >= min_normal()) || !(inertia >= min_normal()))
+                refuse(name + ".mass", mass, "representable in the model's precision with its moment of inertia");
+            radius_[k] = Real(r);
+            inertia_[k] = Real(inertia);
+            material_[k] = material;
+            for (int axis = 0; axis < Dim; ++axis) place_.at(k, axis) = packing.position[id][axis];
+            place_.at(k, 3) = Real(r);
+            velocity_.at(k, 3) = Real(mass);
+            fix(k, {});
+        }
+        // Two particles that no real one ever meets: the partners that fill the last pack of a row of pairs.
+        for (std::size_t g = 0; g < ghosts; ++g) {
+            place_.at(n + g, 0) = Real(g);
+            place_.at(n + g, 3) = Real(0.25);
+            velocity_.at(n + g, 3) = Real(1);
+        }
+    }
+
+    std::size_t size() const noexcept { return id_.size(); }
+    std::int32_t id(std::size_t internal) const noexcept { return id_[internal]; }
+    std::int32_t internal(std::size_t id) const noexcept { return internal_[id]; }
+
+    /// \name One particle, by internal index
+    /// \{
+    point position(std::size_t k) const noexcept { return head(place_, k); }
+    point velocity(std::size_t k) const noexcept { return head(velocity_, k); }
+    rotation spin(std::size_t k) const noexcept {
+        if constexpr (Dim == 2)
+            return {velocity_.at(k, 2)};
+        else
+            return head(spin_, k);
+    }
+    Real radius(std::size_t k) const noexcept { return radius_[k]; }
+    Real mass(std::size_t k) const noexcept { return velocity_.at(k, 3); }
+    Real moment_of_inertia(std::size_t k) const noexcept { return inertia_[k]; }
+    int material(std::size_t k) const noexcept { return material_[k]; }
+    /// Eq. 8's unit vector e (2D).
+    vec<Real, 2> orientation(std::size_t k) const noexcept
+        requires(Dim == 2)
+    {
+        return {std::cos(place_.at(k, 2)), std::sin(place_.at(k, 2))};
+    }
+    /// Unit quaternion {w, x, y, z} (3D).
+    vec<Real, 4> orientation(std::size_t k) const noexcept
+        requires(Dim == 3)
+    {
+        return {quaternion_.at(k, 0), quaternion_.at(k, 1), quaternion_.at(k, 2), quaternion_.at(k, 3)};
+    }
+    /// Load applied from outside: force in N, then torque in N m.
+    point applied_force(std::size_t k) const noexcept { return head(load_, k); }
+
+    void set_position(std::size_t k, point const& x) noexcept { set_head(place_, k, x); }
+    void set_velocity(std::size_t k, point const& v) noexcept { set_head(velocity_, k, v); }
+    void set_spin(std::size_t k, rotation const& w) noexcept {
+        if constexpr (Dim == 2)
+            velocity_.at(k, 2) = w[0];
+        else
+            set_head(spin_, k, w);
+    }
+    void set_applied_force(std::size_t k, point const& force) noexcept { set_head(load_, k, force); }
+    void set_applied_torque(std::size_t k, Real torque) noexcept
+        requires(Dim == 2)
+    {
+        load_.at(k, 2) = torque;
+    }
+    /// Prescribes the motion along the given axes: there the particle keeps the velocity it has or is given.
+    void fix(std::size_t k, fixed_axes const& axes) noexcept {
+        bool const held[3] = {axes.x, axes.y, axes.z};
+        for (int axis = 0; axis < Dim; ++axis)
+            inverse_mass_.at(k, axis) = held[axis] ? Real(0) : Real(1) / mass(k);
+        Real const turn = axes.rotation ? Real(0) : Real(1) / inertia_[k];
+        if constexpr (Dim == 2) {
+            inverse_mass_.at(k, 2) = turn;
+        } else {
+            for (int axis = 0; axis < 3; ++axis) inverse_inertia_.at(k, axis) = turn;
+        }
+    }
+    /// Inverse of mass along `axis` (0 where fixed), of the moment of inertia for axis == Dim; in 1/kg, 1/(kg m^2).
+    Real mobility(std::size_t k, int axis) const noexcept {
+        if constexpr (Dim == 2)
+            return inverse_mass_.at(k, axis);
+        else
+            return axis < 3 ? inverse_mass_.at(k, axis) : inverse_inertia_.at(k, 0);
+    }
+    /// \}
+
+    /// \name All particles
+    /// \{
+    points_view<Real, Dim> positions() const noexcept { return {place_.data(), size(), 4}; }
+    std::span<Real const> radii() const noexcept { return radius_; }
+    record_column<Real>& place() noexcept { return place_; }
+    record_column<Real> const& place() const noexcept { return place_; }
+    record_column<Real>& velocities() noexcept { return velocity_; }
+    record_column<Real> const& velocities() const noexcept { return velocity_; }
+    record_column<Real>& spins() noexcept { return spin_; }
+    record_column<Real> const& spins() const noexcept { return spin_; }
+    record_column<Real>& quaternions() noexcept { return quaternion_; }
+    record_column<Real> const& loads() const noexcept { return load_; }
+    record_column<Real> const& inverse_masses() const noexcept { return inverse_mass_; }
+    record_column<Real> const& inverse_inertias() const noexcept { return inverse_inertia_; }
+    /// Internal index of the two partners that fill incomplete packs of pairs.
+    std::int32_t ghost(int which) const noexcept { return std::int32_t(size()) + which; }
+    /// \}
+
+private:
+    static constexpr std::size_t ghosts = 2;
+    static constexpr double min_normal() { return double(std::numeric_limits<Real>::min()); }
+    static rec unit_quaternion() {
+        rec q(Real(0));
+        q.v[0] = 1;
+        return q;
+    }
+    static point head(record_column<Real> const& column, std::size_t k) noexcept {
+        point r{};
+        for (int axis = 0; axis < Dim; ++axis) r[axis] = column.at(k, axis);
+        return r;
+    }
+    static void set_head(record_column<Real>& column, std::size_t k, point const& value) noexcept {
+        for (int axis = 0; axis < Dim; ++axis) column.at(k, axis) = value[axis];
+    }
+
+    std::vector<std::int32_t> id_, internal_;
+    std::vector<int> material_;
+    std::vector<Real> radius_, inertia_;
+    record_column<Real> place_, velocity_, spin_, quaternion_, load_, inverse_mass_, inverse_inertia_;
+};
+
+} // namespace lacuna
