@@ -1,0 +1,67 @@
+# SPDX-License-Identifier: BSD-3-Clause
+#
+# Which optional components a file needs, found by following its #include lines.
+
+# lacuna_components_of(out file): the components whose third-party headers `file` reaches.
+function(lacuna_components_of out file)
+  get_property(known GLOBAL PROPERTY "LACUNA_NEEDS_${file}" SET)
+  if(known)
+    get_property(needed GLOBAL PROPERTY "LACUNA_NEEDS_${file}")
+    set(${out} "${needed}" PARENT_SCOPE)
+    return()
+  endif()
+  # Set before the descent: two headers that include each other must not send it round for ever.
+  set_property(GLOBAL PROPERTY "LACUNA_NEEDS_${file}" "")
+
+  set(needed "")
+  file(STRINGS "${file}" lines REGEX "^[ \t]*#[ \t]*include[ \t]*[<\"]")
+  foreach(line IN LISTS lines)
+    string(REGEX MATCH "[<\"]([^>\"]+)[>\"]" unused "${line}")
+    set(name "${CMAKE_MATCH_1}")
+    get_filename_component(folder "${file}" DIRECTORY)
+    set(inner "")
+    foreach(candidate IN ITEMS "${lacuna_SOURCE_DIR}/include/${name}" "${folder}/${name}"
+        "${lacuna_SOURCE_DIR}/tests/${name}")
+      if(EXISTS "${candidate}")
+        get_filename_component(candidate "${candidate}" REALPATH)
+        lacuna_components_of(inner "${candidate}")
+        break()
+      endif()
+    endforeach()
+    list(APPEND needed ${inner})
+    foreach(component IN LISTS LACUNA_COMPONENTS)
+      if(LACUNA_${component}_HEADERS AND name MATCHES "${LACUNA_${component}_HEADERS}")
+        list(APPEND needed ${component})
+      endif()
+    endforeach()
+  endforeach()
+  list(REMOVE_DUPLICATES needed)
+  set_property(GLOBAL PROPERTY "LACUNA_NEEDS_${file}" "${needed}")
+  set(${out} "${needed}" PARENT_SCOPE)
+endfunction()
+
+# lacuna_have_components(out names...): whether all of them were found.
+function(lacuna_have_components out)
+  set(have TRUE)
+  foreach(component IN LISTS ARGN)
+    if(NOT TARGET lacuna_${component})
+      set(have FALSE)
+    endif()
+  endforeach()
+  set(${out} ${have} PARENT_SCOPE)
+endfunction()
+
+# lacuna_usable_sources(out files...): those whose components were found; says which are left out.
+function(lacuna_usable_sources out)
+  set(usable "")
+  foreach(source IN LISTS ARGN)
+    lacuna_components_of(needed "${source}")
+    lacuna_have_components(have ${needed})
+    if(have)
+      list(APPEND usable "${source}")
+    else()
+      message(STATUS "left out for want of a component (${needed}): ${source}")
+    endif()
+  endforeach()
+  set(${out} "${usable}" PARENT_SCOPE)
+endfunction()

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <cstdio>
+
+#include <lacuna/core/vec.hpp>
+#include <lacuna/core/version.hpp>
+
+// Every header that the consumer sees, so that one missing from the installed set is missed here.
+#include "every_header.hpp"
+
+int main() {
+    lacuna::vec<double, 2> const a{3.0, 4.0};
+    std::printf("lacuna %d.%d.%d\n", LACUNA_VERSION_MAJOR, LACUNA_VERSION_MINOR, LACUNA_VERSION_PATCH);
+    return lacuna::norm(a) == 5.0 ? 0 : 1;
+}

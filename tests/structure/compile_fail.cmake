@@ -1,0 +1,32 @@
+# SPDX-License-Identifier: BSD-3-Clause
+#
+# SOURCE must not compile, and the compiler must say what its line "// refused: <text>" announces; with -DLACUNA_GOOD
+# it must compile, so that the refusal has no other reason.
+
+cmake_minimum_required(VERSION 3.25)
+
+file(STRINGS "${SOURCE}" expected REGEX "^// refused: ")
+if(NOT expected)
+  message(FATAL_ERROR "${SOURCE} has no line '// refused: <text>'")
+endif()
+string(REGEX REPLACE "^// refused: " "" expected "${expected}")
+
+set(command "${COMPILER}" -std=c++20 -fsyntax-only)
+foreach(folder IN LISTS INCLUDE_DIRS)
+  if(folder AND NOT folder MATCHES "^/usr/include/?$")
+    list(APPEND command -I "${folder}")
+  endif()
+endforeach()
+
+execute_process(COMMAND ${command} -DLACUNA_GOOD "${SOURCE}" RESULT_VARIABLE good ERROR_VARIABLE said OUTPUT_QUIET)
+if(NOT good EQUAL 0)
+  message(FATAL_ERROR "with LACUNA_GOOD it should compile:\n${said}")
+endif()
+execute_process(COMMAND ${command} "${SOURCE}" RESULT_VARIABLE bad ERROR_VARIABLE said OUTPUT_QUIET)
+if(bad EQUAL 0)
+  message(FATAL_ERROR "it compiles, but should be refused with '${expected}'")
+endif()
+string(FIND "${said}" "${expected}" found)
+if(found EQUAL -1)
+  message(FATAL_ERROR "refused, but without '${expected}':\n${said}")
+endif()
