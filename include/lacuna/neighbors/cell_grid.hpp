@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <bit>
+
+#include <lacuna/neighbors/search.hpp>
+
+namespace lacuna {
+
+/// Search by cells, the default: cost and memory are proportional to the number of particles, whatever their
+/// extent.
+///
+/// Particles are put into cells that are as wide as two of them reach (counting sort), so that the partners of
+/// one lie in the cells around its own. Radii that differ much get a grid for each factor of two. Where the
+/// box around all particles would take far more cells than there are particles (one has flown away), rows of
+/// cells share a table by their hash. Buffers are kept: a call of the same size allocates nothing.
+template <class Real, int Dim>
+class cell_grid {
+    static_assert(Dim == 2 || Dim == 3);
+
+public:
+    using real_type = Real;
+    static constexpr int dim = Dim;
+
+    /// \copydoc neighbor_search
+    void build(points_view<Real, Dim> const& points, Real cutoff) {
+        detail::require_finite_points(points);
+        detail::require_length("cutoff", cutoff);
+        sort_into_cells(points, {}, Real(0), cutoff);
+    }
+    void pairs(std::vector<neighbor_pair>& out) const {
+        std::size_t found = 0;
+        out.resize(out.capacity());
+        for (std::size_t i = 0; i < slot_of_.size(); ++i) {
+            std::size_t const row = found;
+            for (level const& grid : levels_)
+                found = grid.hashed ? collect<true>(grid, i, found, out) : collect<false>(grid, i, found, out);
+            detail::sort_row(out.data() + row, out.data() + found);
+        }
+        out.resize(found);
+    }
+    void touching_pairs(points_view<Real, Dim> const& points, std::span<Real const> radii, Real margin,
+                        std::vector<neighbor_pair>& out) {
+        detail::require_finite_points(points);
+        sort_into_cells(points, radii, detail::require_radii(radii, points.size(), margin), margin);
+        pairs(out);
+    }
+
+private:
+    /// Cell coordinate along each axis.
+    using cell_index = std::array<std::int64_t, Dim>;
+
+    /// The grid of the particles whose reach (radius + half the margin) is within a factor of two.
+    struct level {
+        Real reach = 0;
+        Real cells_per_length = 0;
+        vec<Real, Dim> origin{};
+        vec<Real, Dim> first{}; // limits of the cell coordinates; what lies outside goes to the outermost cell
+        vec<Real, Dim> last{};
+        std::uint64_t columns = 1; // cells along the first and second axis of a grid that is not hashed
+        std::uint64_t rows = 1;
+        std::size_t base = 0; // where its cells start in starts_
+        std::size_t cells = 0;
+        std::size_t count = 0;
+        bool hashed = false;
+
+        // Not decreasing in x, rounding included: the cells of an interval's ends enclose those of its points.
+        std::int64_t cell(Real x, int axis) const noexcept {
+            Real const t = (x - origin[axis]) * cells_per_length;
+            return std::int64_t(t > first[axis] ? (t < last[axis] ? t : last[axis]) : first[axis]);
+        }
+        /// Name of the row of cells along the first axis; in a grid that is not hashed, its number.
+        std::uint64_t row(cell_index const& c) const noexcept {
+            auto r = hashed ? std::uint64_t(c[1]) & 0xffffffffu : std::uint64_t(c[1]);
+            if constexpr (Dim == 3) r += std::uint64_t(c[2]) * (hashed ? std::uint64_t(1) << 32 : rows);
+            return r;
+        }
+        /// Cell of the table in which a row's cell 0 lies, before it is wrapped to the table.
+        std::size_t row_start(std::uint64_t row) const noexcept {
+            if (!hashed) return std::size_t(row * columns);
+            row = (row ^ (row >> 30)) * 0xbf58476d1ce4e5b9u; // mixing function of splitmix64
+            row = (row ^ (row >> 27)) * 0x94d049bb133111ebu;
+            return std::size_t(row ^ (row >> 31));
+        }
+    };
+    static constexpr int max_levels = 7;
+    static constexpr Real far_cell = Real(1 << 30);
+
+    void sort_into_cells(points_view<Real, Dim> const& points, std::span<Real const> radii, Real largest, Real margin) {
+        std::size_t const n = points.size();
+        margin_ = margin;
+        levels_.clear();
+        slot_of_.resize(n);
+        index_.resize(n);
+        radius_.resize(n);
+        cell_of_.resize(n);
+        for (auto& column : position_) column.resize(n);
+        if (n == 0) return;
+
+        lay_grids(points, radii, largest);
+        bool any_hashed = false;
+        for (level const& grid : levels_) any_hashed = any_hashed || grid.hashed;
+        row_.resize(any_hashed ? n : 0);
+        row_of_.resize(any_hashed ? n : 0);
+
+        // Counted one place ahead, each cell's start moves on to its end, the next one's start, while it fills.
+        starts_.assign(levels_.back().base + levels_.back().cells + 2, 0);
+        for (std::size_t i = 0; i < n; ++i) {
+            level const& grid = levels_[levels_.size() == 1 ? 0 : level_number_[level_of(radii[i])]];
+            cell_index c;
+            for (int axis = 0; axis < Dim; ++axis) c[std::size_t(axis)] = grid.cell(points(i, axis), axis);
+            std::uint64_t const row = grid.row(c);
+            std::size_t cell = grid.row_start(row) + std::size_t(c[0]);
+            if (grid.hashed) cell &= grid.cells - 1;
+            if (any_hashed) row_of_[i] = row;
+            cell_of_[i] = std::uint32_t(grid.base + cell);
+            ++starts_[grid.base + cell + 2];
+        }
+        for (std::size_t c = 2; c < starts_.size(); ++c) starts_[c] += starts_[c - 1];
+        for (std::size_t i = 0; i < n; ++i) {
+            std::size_t const slot = starts_[cell_of_[i] + 1]++;
+            slot_of_[i] = std::uint32_t(slot);
+            index_[slot] = std::int32_t(i);
+            radius_[slot] = radii.empty() ? Real(0) : radii[i];
+            for (int axis = 0; axis < Dim; ++axis) position_[std::size_t(axis)][slot] = points(i, axis);
+            if (any_hashed) row_[slot] = row_of_[i];
+        }
+    }
+
+    std::size_t level_of(Real radius) const noexcept {
+        Real const reach = radius + margin_ / 2;
+        std::size_t l = 0;
+        while (l + 1 < max_levels && reach <= bound_[l]) ++l;
+        return l;
+    }
+
+    void lay_grids(points_view<Real, Dim> const& points, std::span<Real const> radii, Real largest) {
+        std::array<Real, max_levels> reach{};
+        std::array<std::size_t, max_levels> count{};
+        bound_[0] = (largest + margin_ / 2) / 2;
+        for (std::size_t l = 1; l < max_levels; ++l) bound_[l] = bound_[l - 1] / 2;
+        if (radii.empty() || largest == 0) {
+            reach[0] = largest + margin_ / 2;
+            count[0] = points.size();
+        } else {
+            for (Real const r : radii) {
+                std::size_t const l = level_of(r);
+                reach[l] = std::max(reach[l], r + margin_ / 2);
+                ++count[l];
+            }
+        }
+        vec<Real, Dim> low = points[0];
+        vec<Real, Dim> high = points[0];
+        for (std::size_t i = 1; i < points.size(); ++i)
+            for (int axis = 0; axis < Dim; ++axis) {
+                low[axis] = std::min(low[axis], points(i, axis));
+                high[axis] = std::max(high[axis], points(i, axis));
+            }
+        std::size_t base = 0;
+        for (std::size_t l = 0; l < max_levels; ++l) {
+            if (count[l] == 0) continue;
+            level grid;
+            grid.reach = reach[l];
+            grid.count = count[l];
+            grid.base = base;
+            // The smallest grid may hold anything below; its cells stay a bounded part of the largest reach.
+            Real width = 2 * std::max(reach[l], bound_[max_levels - 1]);
+            if (!(width > std::numeric_limits<Real>::min() * 4)) width = width_of_points(low, high, count[l]);
+            grid.cells_per_length = 1 / width;
+            fit(grid, points, low, high);
+            base += grid.cells;
+            level_number_[l] = levels_.size();
+            levels_.push_back(grid);
+        }
+    }
+
+    /// A width for points that only touch where they coincide: about one per cell.
+    static Real width_of_points(vec<Real, Dim> const& low, vec<Real, Dim> const& high, std::size_t count) {
+        Real extent = 0;
+        for (int axis = 0; axis < Dim; ++axis) extent = std::max(extent, high[axis] - low[axis]);
+        Real const width = extent / std::pow(Real(count), Real(1) / Real(Dim));
+        return width > std::numeric_limits<Real>::min() * 4 && std::isfinite(width) ? width : Real(1);
+    }
+
+    void fit(level& grid, points_view<Real, Dim> const& points, vec<Real, Dim> const& low, vec<Real, Dim> const& high) {
+        double const most = 4.0 * double(grid.count) + 64;
+        double cells = 1;
+        for (int axis = 0; axis < Dim; ++axis) {
+            double const last = std::floor((high[axis] - low[axis]) * grid.cells_per_length);
+            cells *= last + 1;
+            // Beyond 2^23 a float cannot tell one cell from the next.
+            if (!(cells <= most) || last > 8e6) {
+                hash(grid, points);
+                return;
+            }
+            grid.origin[axis] = low[axis];
+            grid.first[axis] = 0;
+            grid.last[axis] = Real(last);
+            if (axis < 2) (axis == 0 ? grid.columns : grid.rows) = std::uint64_t(last) + 1;
+        }
+        grid.cells = std::size_t(cells);
+    }
+
+    void hash(level& grid, points_view<Real, Dim> const& points) {
+        grid.hashed = true;
+        grid.cells = std::bit_ceil(2 * grid.count);
+        for (int axis = 0; axis < Dim; ++axis) {
+            // Cells are counted from where most particles are: a float has too few digits to count them from
+            // one that has flown away.
+            std::array<Real, 63> sample;
+            std::size_t const taken = std::min(sample.size(), points.size());
+            for (std::size_t k = 0; k < taken; ++k) sample[k] = points(k * points.size() / taken, axis);
+            auto const middle = sample.begin() + std::ptrdiff_t(taken / 2);
+            std::nth_element(sample.begin(), middle, sample.begin() + std::ptrdiff_t(taken));
+            grid.origin[axis] = *middle;
+            grid.first[axis] = -far_cell;
+            grid.last[axis] = far_cell;
+        }
+    }
+
+    /// Appends the partners of particle i in one grid to out[found...]; returns the new number of pairs.
+    template <bool Hashed>
+    std::size_t collect(level const& grid, std::size_t i, std::size_t found, std::vector<neighbor_pair>& out) const {
+        std::size_t const own = slot_of_[i];
+        Real const reach = ((radius_[own] + margin_ / 2) + grid.reach) * (1 + detail::rounding_slack<Real>);
+        cell_index low;
+        cell_index high;
+        vec<Real, Dim> x;
+        for (int axis = 0; axis < Dim; ++axis) {
+            x[axis] = position_[std::size_t(axis)][own];
+            low[std::size_t(axis)] = grid.cell(x[axis] - reach, axis);
+            high[std::size_t(axis)] = grid.cell(x[axis] + reach, axis);
+        }
+        auto const width = std::size_t(high[0] - low[0]) + 1;
+        cell_index c = low;
+        for (;;) {
+            std::uint64_t const row = grid.row(c);
+            std::size_t first = grid.row_start(row) + std::size_t(low[0]);
+            if constexpr (Hashed) {
+                first &= grid.cells - 1;
+                std::size_t const taken = std::min(width, grid.cells);
+                std::size_t const ahead = std::min(taken, grid.cells - first);
+                found = scan<Hashed>(grid.base + first, ahead, i, own, x, row, found, out);
+                found = scan<Hashed>(grid.base, taken - ahead, i, own, x, row, found, out);
+            } else {
+                found = scan<Hashed>(grid.base + first, width, i, own, x, row, found, out);
+            }
+            if (++c[1] <= high[1]) continue;
+            if constexpr (Dim == 3) {
+                c[1] = low[1];
+                if (++c[2] <= high[2]) continue;
+            }
+            return found;
+        }
+    }
+
+    template <bool Hashed>
+    std::size_t scan(std::size_t first_cell, std::size_t cells, std::size_t i, std::size_t own, vec<Real, Dim> const& x,
+                     std::uint64_t row, std::size_t found, std::vector<neighbor_pair>& out) const {
+        std::size_t const first = starts_[first_cell];
+        std::size_t const last = starts_[first_cell + cells];
+        if (found + (last - first) > out.size()) out.resize(2 * found + (last - first) + 64);
+        neighbor_pair* const to = out.data();
+        auto const self = std::int32_t(i);
+        Real const radius = radius_[own];
+        for (std::size_t s = first; s < last; ++s) {
+            Real d2 = 0;
+            for (int axis = 0; axis < Dim; ++axis)
+                d2 = detail::add_square(d2, x[axis] - position_[std::size_t(axis)][s]);
+            // Written in any case and counted if it is a pair: a branch here would be mispredicted.
+            to[found] = {self, index_[s]};
+            unsigned hit = unsigned(index_[s] > self) & unsigned(detail::in_reach(d2, radius, radius_[s], margin_));
+            // Rows that share cells of the table would give their pairs twice.
+            if constexpr (Hashed) hit &= unsigned(row_[s] == row);
+            found += hit;
+        }
+        return found;
+    }
+
+    std::vector<level> levels_;
+    std::array<std::size_t, max_levels> level_number_{};
+    std::array<Real, max_levels> bound_{}; // level l + 1 holds a reach of at most bound_[l]
+    Real margin_ = 0;
+    // By slot: the particles in the order of their cells, and by their number in that cell.
+    std::array<std::vector<Real>, Dim> position_;
+    std::vector<Real> radius_;
+    std::vector<std::int32_t> index_;
+    std::vector<std::uint64_t> row_;
+    std::vector<std::uint32_t> starts_; // first slot of each cell
+    // By particle.
+    std::vector<std::uint32_t> slot_of_;
+    std::vector<std::uint32_t> cell_of_;
+    std::vector<std::uint64_t> row_of_;
+};
+
+} // namespace lacuna

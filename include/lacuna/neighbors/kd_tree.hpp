@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+
+#include <nanoflann.hpp>
+
+#include <lacuna/neighbors/search.hpp>
+
+namespace lacuna {
+
+namespace detail {
+
+template <class Real, int Dim>
+struct tree_points {
+    std::vector<Real> coordinates; // Dim per point
+    std::vector<Real> radii;
+    Real largest_radius = 0;
+    Real margin = 0;
+
+    std::size_t kdtree_get_point_count() const noexcept { return radii.size(); }
+    Real kdtree_get_pt(std::size_t i, std::size_t axis) const noexcept { return coordinates[i * Dim + axis]; }
+    template <class Box>
+    bool kdtree_get_bbox(Box&) const noexcept {
+        return false;
+    }
+};
+
+/// Takes what the tree finds around one point. The members are all that nanoflann asks of a result set, in
+/// version 1.4 and in those from 1.5 on, which have other search parameters and result types of their own.
+template <class Real, int Dim>
+class tree_row {
+public:
+    using DistanceType = Real;
+
+    tree_row(tree_points<Real, Dim> const& points, std::size_t i, std::vector<neighbor_pair>& out)
+        : points_(points), i_(i), out_(out) {
+        Real const reach = (points.radii[i] + points.largest_radius) + points.margin;
+        // The tree looks for strictly less, its path sums round, and a square may underflow.
+        Real const squared = reach * reach * (1 + rounding_slack<Real>);
+        worst_ = std::nextafter(std::max(squared, std::numeric_limits<Real>::min()), std::numeric_limits<Real>::max());
+    }
+    template <class Index>
+    bool addPoint(Real, Index found) {
+        auto const j = std::size_t(found);
+        if (j <= i_) return true;
+        Real d2 = 0;
+        for (std::size_t axis = 0; axis < Dim; ++axis)
+            d2 = add_square(d2, points_.kdtree_get_pt(i_, axis) - points_.kdtree_get_pt(j, axis));
+        if (in_reach(d2, points_.radii[i_], points_.radii[j], points_.margin)) {
+            out_.push_back({std::int32_t(i_), std::int32_t(j)});
+            ++count_;
+        }
+        return true;
+    }
+    Real worstDist() const noexcept { return worst_; }
+    bool full() const noexcept { return true; }
+    std::size_t size() const noexcept { return count_; }
+    bool empty() const noexcept { return count_ == 0; }
+    void sort() noexcept {}
+
+private:
+    tree_points<Real, Dim> const& points_;
+    std::size_t i_;
+    std::vector<neighbor_pair>& out_;
+    std::size_t count_ = 0;
+    Real worst_;
+};
+
+} // namespace detail
+
+/// Search by the k-d tree of nanoflann (1.4 or newer): cost n log n for any distribution of the points.
+///
+/// Radii that differ much cost time: each particle looks as far as the largest one could reach it.
+/// The tree takes its nodes from the heap at each build; all else is kept from call to call.
+template <class Real, int Dim>
+class kd_tree {
+    using points_type = detail::tree_points<Real, Dim>;
+    using index_type =
+        nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<Real, points_type>, points_type, Dim>;
+
+public:
+    using real_type = Real;
+    static constexpr int dim = Dim;
+
+    kd_tree() = default;
+    kd_tree(kd_tree&&) noexcept = default;
+    kd_tree& operator=(kd_tree&&) noexcept = default;
+    kd_tree(kd_tree const& other) { *this = other; }
+    kd_tree& operator=(kd_tree const& other) {
+        if (this == &other) return *this;
+        index_.reset();
+        points_.reset();
+        if (other.points_) {
+            points_ = std::make_unique<points_type>(*other.points_);
+            index_points();
+        }
+        return *this;
+    }
+    ~kd_tree() = default;
+
+    /// \copydoc neighbor_search
+    void build(points_view<Real, Dim> const& points, Real cutoff) {
+        detail::require_finite_points(points);
+        detail::require_length("cutoff", cutoff);
+        store(points);
+        points_->radii.assign(points.size(), Real(0));
+        points_->largest_radius = 0;
+        points_->margin = cutoff;
+        index_points();
+    }
+    void pairs(std::vector<neighbor_pair>& out) const {
+        out.clear();
+        if (!index_) return;
+        for (std::size_t i = 0; i < points_->radii.size(); ++i) {
+            std::size_t const first = out.size();
+            detail::tree_row<Real, Dim> row(*points_, i, out);
+            index_->findNeighbors(row, &points_->coordinates[i * Dim], {});
+            detail::sort_row(out.data() + first, out.data() + out.size());
+        }
+    }
+    void touching_pairs(points_view<Real, Dim> const& points, std::span<Real const> radii, Real margin,
+                        std::vector<neighbor_pair>& out) {
+        detail::require_finite_points(points);
+        Real const largest = detail::require_radii(radii, points.size(), margin);
+        store(points);
+        points_->radii.assign(radii.begin(), radii.end());
+        points_->largest_radius = largest;
+        points_->margin = margin;
+        index_points();
+        pairs(out);
+    }
+
+private:
+    void store(points_view<Real, Dim> const& points) {
+        index_.reset();
+        if (!points_) points_ = std::make_unique<points_type>();
+        points_->coordinates.resize(points.size() * Dim);
+        for (std::size_t i = 0; i < points.size(); ++i)
+            for (int axis = 0; axis < Dim; ++axis) points_->coordinates[i * Dim + std::size_t(axis)] = points(i, axis);
+    }
+    void index_points() {
+        if (!points_->radii.empty()) index_ = std::make_unique<index_type>(Dim, *points_);
+    }
+
+    // The index refers to the points, so that both live on the heap and survive a move of the search.
+    std::unique_ptr<points_type> points_;
+    std::unique_ptr<index_type> index_;
+};
+
+} // namespace lacuna

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <lacuna/core/error.hpp>
+#include <lacuna/core/points.hpp>
+
+/// \file
+/// What every neighbour search gives and takes. All searches return the same list, bit for bit, for the same
+/// input: they share one comparison, and every list is sorted.
+
+namespace lacuna {
+
+/// Two particles that are close to each other, by their numbers in the input; i < j.
+struct neighbor_pair {
+    std::int32_t i;
+    std::int32_t j;
+    friend constexpr bool operator==(neighbor_pair const&, neighbor_pair const&) = default;
+};
+
+/// A neighbour search, the slot filled by brute_force, kd_tree and cell_grid.
+///
+/// * `build(points, cutoff)`, then `pairs(out)`: all pairs whose centres are at most `cutoff` apart [m].
+/// * `touching_pairs(points, radii, margin, out)`: all pairs with distance <= r_i + r_j + margin [m].
+///
+/// Limits are inclusive, each pair comes once, the list is sorted by (i, j), its earlier content is replaced.
+/// A search copies what it is given to build from. The calls throw std::invalid_argument for a position that
+/// is not finite and a radius that is negative or not finite (naming the particle), for a negative cutoff or
+/// margin, for a limit whose square overflows, and when there is not one radius per point.
+template <class S>
+concept neighbor_search = std::default_initializable<S> &&
+    requires(S search, S const built, points_view<typename S::real_type, S::dim> const& points,
+             std::span<typename S::real_type const> radii, typename S::real_type length,
+             std::vector<neighbor_pair>& out) {
+    search.build(points, length);
+    built.pairs(out);
+    search.touching_pairs(points, radii, length, out);
+};
+
+namespace detail {
+
+/// Sum of squares whose rounding is the same wherever it is inlined: where the processor has a fused
+/// multiply-add the compiler may contract a product and a sum in either order, so the order is spelled out.
+template <class Real>
+inline Real add_square(Real sum, Real d) noexcept {
+#if defined(__FMA__) || defined(__FP_FAST_FMA) || defined(__aarch64__)
+    return std::fma(d, d, sum);
+#else
+    return sum + d * d;
+#endif
+}
+
+/// Whether points at squared distance d2 are a pair; the one comparison that all searches use.
+template <class Real>
+inline bool in_reach(Real d2, Real radius_i, Real radius_j, Real margin) noexcept {
+    Real const limit = (radius_i + radius_j) + margin;
+    return d2 <= limit * limit;
+}
+
+/// Relative allowance that covers the rounding of a distance, a limit and the path down a tree.
+template <class Real>
+inline constexpr Real rounding_slack = 256 * std::numeric_limits<Real>::epsilon();
+
+template <class Real, int Dim>
+void require_finite_points(points_view<Real, Dim> const& points) {
+    if (points.size() > (std::size_t(1) << 29)) refuse("number of points", double(points.size()), "at most 2^29");
+    bool finite = true;
+    for (std::size_t i = 0; i < points.size(); ++i)
+        for (int axis = 0; axis < Dim; ++axis) finite = finite && points(i, axis) - points(i, axis) == Real(0);
+    if (finite) return;
+    for (std::size_t i = 0; i < points.size(); ++i)
+        for (int axis = 0; axis < Dim; ++axis)
+            require_finite("position of particle " + std::to_string(i) + ", coordinate " + std::to_string(axis),
+                           double(points(i, axis)));
+}
+
+template <class Real>
+void require_length(char const* field, Real value) {
+    require_not_negative(field, double(value));
+    if (!std::isfinite(value * value)) refuse(field, double(value), "small enough for its square to be finite");
+}
+
+/// Checks the input of touching_pairs; returns the largest radius, 0 when there is none.
+template <class Real>
+Real require_radii(std::span<Real const> radii, std::size_t count, Real margin) {
+    if (radii.size() != count)
+        refuse("number of radii", double(radii.size()), "the number of points, " + std::to_string(count));
+    require_length("margin", margin);
+    Real largest = 0;
+    for (std::size_t i = 0; i < radii.size(); ++i) {
+        if (!(radii[i] >= 0 && std::isfinite(radii[i])))
+            refuse("radius of particle " + std::to_string(i), double(radii[i]), ">= 0 and finite");
+        largest = std::max(largest, radii[i]);
+    }
+    require_length("twice the largest radius + margin", 2 * largest + margin);
+    return largest;
+}
+
+/// Sorts the pairs of one i by j. Rows are short; long ones come from degenerate input.
+inline void sort_row(neighbor_pair* first, neighbor_pair* last) {
+    auto const before = [](neighbor_pair const& a, neighbor_pair const& b) { return a.j < b.j; };
+    if (last - first > 32) {
+        std::sort(first, last, before);
+        return;
+    }
+    for (neighbor_pair* p = first; p < last; ++p) {
+        neighbor_pair const moving = *p;
+        neighbor_pair* to = p;
+        for (; to > first && before(moving, to[-1]); --to) *to = to[-1];
+        *to = moving;
+    }
+}
+
+} // namespace detail
+} // namespace lacuna

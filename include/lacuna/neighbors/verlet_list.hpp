@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <utility>
+
+#include <lacuna/neighbors/search.hpp>
+
+namespace lacuna {
+
+/// A list of candidate pairs that stays valid while the particles move by less than half a skin.
+///
+/// Built, it holds every pair with distance <= r_i + r_j + margin + skin. As long as no particle is further
+/// than skin / 2 from where it was then, every pair with distance <= r_i + r_j + margin is among them.
+/// \tparam Search any neighbor_search: `verlet_list<cell_grid<double, 2>>`
+template <neighbor_search Search>
+class verlet_list {
+public:
+    using search_type = Search;
+    using real_type = typename Search::real_type;
+    static constexpr int dim = Search::dim;
+    using points_type = points_view<real_type, dim>;
+
+    struct parameters {
+        /// How much two particles may come closer before the list is built anew [m], >= 0. A larger skin means
+        /// rarer builds and more candidates; 0 means a build after every motion.
+        real_type skin = 0;
+        /// Gap at which two particles already count as neighbours [m], >= 0.
+        real_type margin = 0;
+    };
+
+    verlet_list() = default;
+    /// \throws std::invalid_argument for a skin or margin that is negative or not finite
+    explicit verlet_list(parameters const& p) : parameters_(p) {
+        detail::require_length("skin", p.skin);
+        detail::require_length("margin", p.margin);
+    }
+
+    /// Builds the list anew when it may miss a pair: when it was never built, the number of particles or a
+    /// radius changed, or a particle moved more than skin / 2 since the last build.
+    /// \return whether it was built anew
+    /// \throws std::invalid_argument as the search does, for positions or radii that are no numbers
+    bool update(points_type const& points, std::span<real_type const> radii) {
+        if (!needs_rebuild(points) && std::equal(radii.begin(), radii.end(), radii_.begin(), radii_.end()))
+            return false;
+        build(points, radii);
+        return true;
+    }
+
+    /// Whether the list was never built, the number of particles changed, or one of them moved more than
+    /// skin / 2 since the last build. A position that is not a number counts as moved.
+    bool needs_rebuild(points_type const& points) const noexcept {
+        if (!built_ || points.size() != reference_.size()) return true;
+        real_type const half = parameters_.skin / 2;
+        real_type const limit = half * half * (1 - detail::rounding_slack<real_type>);
+        constexpr std::size_t block = 1024;
+        for (std::size_t first = 0; first < points.size(); first += block) {
+            std::size_t const last = std::min(first + block, points.size());
+            bool still = true;
+            for (std::size_t i = first; i < last; ++i) {
+                real_type d2 = 0;
+                for (int axis = 0; axis < dim; ++axis) {
+                    real_type const d = points(i, axis) - reference_[i][axis];
+                    d2 += d * d;
+                }
+                still = still && d2 <= limit;
+            }
+            if (!still) return true;
+        }
+        return false;
+    }
+
+    /// Distance [m] of the particle that is furthest from where it was at the last build; not a number when a
+    /// position is none, infinite when the list was not built for this number of particles.
+    real_type largest_displacement(points_type const& points) const noexcept {
+        if (!built_ || points.size() != reference_.size()) return std::numeric_limits<real_type>::infinity();
+        real_type largest = 0;
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            real_type d2 = 0;
+            for (int axis = 0; axis < dim; ++axis) {
+                real_type const d = points(i, axis) - reference_[i][axis];
+                d2 += d * d;
+            }
+            if (std::isnan(d2)) return d2;
+            largest = std::max(largest, d2);
+        }
+        return std::sqrt(largest);
+    }
+
+    /// Builds the list for these positions [m] and radii [m] in any case.
+    void build(points_type const& points, std::span<real_type const> radii) {
+        built_ = false;
+        pairs_.clear();
+        real_type largest = 0;
+        for (real_type const r : radii) largest = std::max(largest, r);
+        real_type const reach = parameters_.margin + parameters_.skin;
+        // Without the slack, a pair a rounding beyond the reach now could be a rounding inside it later.
+        real_type const slack = detail::rounding_slack<real_type> * (2 * largest + reach);
+        search_.touching_pairs(points, radii, reach + slack, pairs_);
+        reference_.resize(points.size());
+        for (std::size_t i = 0; i < points.size(); ++i) reference_[i] = points[i];
+        radii_.assign(radii.begin(), radii.end());
+        built_ = true;
+        ++build_count_;
+    }
+
+    /// The candidates of the last build, i < j, sorted by (i, j).
+    std::vector<neighbor_pair> const& pairs() const noexcept { return pairs_; }
+    /// How often the list was built so far.
+    long long build_count() const noexcept { return build_count_; }
+    parameters const& settings() const noexcept { return parameters_; }
+
+private:
+    parameters parameters_;
+    Search search_;
+    std::vector<neighbor_pair> pairs_;
+    std::vector<vec<real_type, dim>> reference_;
+    std::vector<real_type> radii_;
+    long long build_count_ = 0;
+    bool built_ = false;
+};
+
+} // namespace lacuna
