@@ -53,11 +53,11 @@ struct pack_mask {
     native bits;
 
     bool operator[](int lane) const noexcept { return bits[lane] != 0; }
-    friend pack_mask operator&(pack_mask a, pack_mask b) noexcept { return {a.bits & b.bits}; }
-    friend pack_mask operator|(pack_mask a, pack_mask b) noexcept { return {a.bits | b.bits}; }
-    friend pack_mask operator&&(pack_mask a, pack_mask b) noexcept { return {a.bits & b.bits}; }
-    friend pack_mask operator||(pack_mask a, pack_mask b) noexcept { return {a.bits | b.bits}; }
-    friend pack_mask operator!(pack_mask a) noexcept { return {~a.bits}; }
+    friend pack_mask operator&(pack_mask const& a, pack_mask const& b) noexcept { return {a.bits & b.bits}; }
+    friend pack_mask operator|(pack_mask const& a, pack_mask const& b) noexcept { return {a.bits | b.bits}; }
+    friend pack_mask operator&&(pack_mask const& a, pack_mask const& b) noexcept { return {a.bits & b.bits}; }
+    friend pack_mask operator||(pack_mask const& a, pack_mask const& b) noexcept { return {a.bits | b.bits}; }
+    friend pack_mask operator!(pack_mask const& a) noexcept { return {~a.bits}; }
 };
 
 /// W numbers of type T, computed together; the same operations as for T, lane by lane.
@@ -89,18 +89,18 @@ struct pack {
     }
     T operator[](int lane) const noexcept { return v[lane]; }
 
-    friend pack operator+(pack a, pack b) noexcept { return pack(native(a.v + b.v)); }
-    friend pack operator-(pack a, pack b) noexcept { return pack(native(a.v - b.v)); }
-    friend pack operator*(pack a, pack b) noexcept { return pack(native(a.v * b.v)); }
-    friend pack operator/(pack a, pack b) noexcept { return pack(native(a.v / b.v)); }
-    friend pack operator-(pack a) noexcept { return pack(native(-a.v)); }
-    pack& operator+=(pack b) noexcept { return *this = *this + b; }
-    pack& operator-=(pack b) noexcept { return *this = *this - b; }
-    pack& operator*=(pack b) noexcept { return *this = *this * b; }
-    friend pack_mask<T, W> operator<(pack a, pack b) noexcept { return {a.v < b.v}; }
-    friend pack_mask<T, W> operator>(pack a, pack b) noexcept { return {a.v > b.v}; }
-    friend pack_mask<T, W> operator<=(pack a, pack b) noexcept { return {a.v <= b.v}; }
-    friend pack_mask<T, W> operator>=(pack a, pack b) noexcept { return {a.v >= b.v}; }
+    friend pack operator+(pack const& a, pack const& b) noexcept { return pack(native(a.v + b.v)); }
+    friend pack operator-(pack const& a, pack const& b) noexcept { return pack(native(a.v - b.v)); }
+    friend pack operator*(pack const& a, pack const& b) noexcept { return pack(native(a.v * b.v)); }
+    friend pack operator/(pack const& a, pack const& b) noexcept { return pack(native(a.v / b.v)); }
+    friend pack operator-(pack const& a) noexcept { return pack(native(-a.v)); }
+    pack& operator+=(pack const& b) noexcept { return *this = *this + b; }
+    pack& operator-=(pack const& b) noexcept { return *this = *this - b; }
+    pack& operator*=(pack const& b) noexcept { return *this = *this * b; }
+    friend pack_mask<T, W> operator<(pack const& a, pack const& b) noexcept { return {a.v < b.v}; }
+    friend pack_mask<T, W> operator>(pack const& a, pack const& b) noexcept { return {a.v > b.v}; }
+    friend pack_mask<T, W> operator<=(pack const& a, pack const& b) noexcept { return {a.v <= b.v}; }
+    friend pack_mask<T, W> operator>=(pack const& a, pack const& b) noexcept { return {a.v >= b.v}; }
 };
 
 template <class T, int W>
@@ -124,28 +124,28 @@ inline constexpr int native_width =
 #endif
 
 template <class T, int W>
-pack<T, W> select(pack_mask<T, W> condition, pack<T, W> a, pack<T, W> b) noexcept {
+pack<T, W> select(pack_mask<T, W> const& condition, pack<T, W> const& a, pack<T, W> const& b) noexcept {
     return pack<T, W>(typename pack<T, W>::native(condition.bits ? a.v : b.v));
 }
 template <class T, int W>
-pack<T, W> min(pack<T, W> a, pack<T, W> b) noexcept {
+pack<T, W> min(pack<T, W> const& a, pack<T, W> const& b) noexcept {
     return pack<T, W>(typename pack<T, W>::native(b.v < a.v ? b.v : a.v));
 }
 template <class T, int W>
-pack<T, W> max(pack<T, W> a, pack<T, W> b) noexcept {
+pack<T, W> max(pack<T, W> const& a, pack<T, W> const& b) noexcept {
     return pack<T, W>(typename pack<T, W>::native(a.v < b.v ? b.v : a.v));
 }
 template <class T, int W>
-pack<T, W> abs(pack<T, W> a) noexcept {
+pack<T, W> abs(pack<T, W> const& a) noexcept {
     return max(a, -a);
 }
 
 template <class T, int W>
-pack<T, W> sqrt(pack<T, W> a) noexcept {
+pack<T, W> sqrt(pack<T, W> const& a) noexcept {
     // A loop over std::sqrt keeps a test for errno per lane unless the program is built with -fno-math-errno.
 #if defined(__AVX512F__)
-    if constexpr (std::is_same_v<T, double> && W == 8) return pack<T, W>(typename pack<T, W>::native(_mm512_sqrt_pd(a.v)));
-    if constexpr (std::is_same_v<T, float> && W == 16) return pack<T, W>(typename pack<T, W>::native(_mm512_sqrt_ps(a.v)));
+    if constexpr (std::is_same_v<T, double> && W == 8) return pack<T, W>(typename pack<T, W>::native(_mm512_maskz_sqrt_pd(__mmask8(-1), a.v)));
+    if constexpr (std::is_same_v<T, float> && W == 16) return pack<T, W>(typename pack<T, W>::native(_mm512_maskz_sqrt_ps(__mmask16(-1), a.v)));
 #endif
 #if defined(__AVX__)
     if constexpr (std::is_same_v<T, double> && W == 4) return pack<T, W>(typename pack<T, W>::native(_mm256_sqrt_pd(a.v)));
@@ -155,12 +155,13 @@ pack<T, W> sqrt(pack<T, W> a) noexcept {
     if constexpr (std::is_same_v<T, double> && W == 2) return pack<T, W>(typename pack<T, W>::native(_mm_sqrt_pd(a.v)));
     if constexpr (std::is_same_v<T, float> && W == 4) return pack<T, W>(typename pack<T, W>::native(_mm_sqrt_ps(a.v)));
 #endif
-    for (int k = 0; k < W; ++k) a.v[k] = std::sqrt(a.v[k]);
-    return a;
+    pack<T, W> r;
+    for (int k = 0; k < W; ++k) r.v[k] = std::sqrt(a.v[k]);
+    return r;
 }
 
 template <class T, int W>
-bool any(pack_mask<T, W> m) noexcept {
+bool any(pack_mask<T, W> const& m) noexcept {
 #if defined(__AVX512DQ__) && defined(__AVX512F__)
     if constexpr (sizeof(T) == 8 && W == 8) return _mm512_movepi64_mask((__m512i)m.bits) != 0;
     if constexpr (sizeof(T) == 4 && W == 16) return _mm512_movepi32_mask((__m512i)m.bits) != 0;
@@ -176,13 +177,13 @@ bool any(pack_mask<T, W> m) noexcept {
     return r;
 }
 template <class T, int W>
-bool all(pack_mask<T, W> m) noexcept {
+bool all(pack_mask<T, W> const& m) noexcept {
     return !any(!m);
 }
 
 /// Sum of the lanes, in a fixed order.
 template <class T, int W>
-T sum(pack<T, W> a) noexcept {
+T sum(pack<T, W> const& a) noexcept {
     T total = a.v[0];
     for (int k = 1; k < W; ++k) total += a.v[k];
     return total;

@@ -22,11 +22,11 @@ struct no_damping {
     static constexpr bool acts_on_pairs = false;
     static constexpr bool acts_on_particles = false;
     template <class T>
-    static T pair_force(parameters const&, T, T, T, T) {
+    static T pair_force(parameters const&, T const&, T const&, T const&, T const&) {
         return T(0);
     }
     template <class T>
-    static T particle_force(parameters const&, T, T) {
+    static T particle_force(parameters const&, T const&, T const&) {
         return T(0);
     }
 };
@@ -41,11 +41,11 @@ struct local_damping {
     static constexpr bool acts_on_pairs = false;
     static constexpr bool acts_on_particles = true;
     template <class T>
-    static T pair_force(parameters const&, T, T, T, T) {
+    static T pair_force(parameters const&, T const&, T const&, T const&, T const&) {
         return T(0);
     }
     template <class T>
-    static T particle_force(parameters const& p, T force, T velocity) {
+    static T particle_force(parameters const& p, T const& force, T const& velocity) {
         T const drag = T(value_t<T>(p.factor)) * abs(force);
         return select(velocity > T(0), -drag, select(velocity < T(0), drag, T(0)));
     }
@@ -62,11 +62,12 @@ struct viscous_damping {
     static constexpr bool acts_on_pairs = true;
     static constexpr bool acts_on_particles = false;
     template <class T>
-    static T pair_force(parameters const& p, T stiffness, T mass_i, T mass_j, T normal_rate) {
+    static T pair_force(parameters const& p, T const& stiffness, T const& mass_i, T const& mass_j,
+                        T const& normal_rate) {
         return T(value_t<T>(2 * p.ratio)) * sqrt(stiffness * (mass_i * mass_j) / (mass_i + mass_j)) * normal_rate;
     }
     template <class T>
-    static T particle_force(parameters const&, T, T) {
+    static T particle_force(parameters const&, T const&, T const&) {
         return T(0);
     }
 };

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <type_traits>
+#include <vector>
+
+#include <lacuna/core/records.hpp>
+
+/// \file
+/// Aggregates made of one scalar type only (a law's parameters and history), seen as rows of numbers.
+
+namespace lacuna {
+
+/// An aggregate template that holds nothing but members of type T (and vec of T).
+template <template <class> class Aggregate, class T>
+inline constexpr std::size_t field_count = sizeof(Aggregate<T>) / sizeof(T);
+
+/// The same aggregate in another scalar type, field by field.
+/// \param convert from the source's scalar to the target's
+template <class To, class From, class Target, class Source, class Convert>
+Target convert_fields(Source const& source, Convert const& convert) noexcept {
+    constexpr std::size_t count = sizeof(Source) / sizeof(From);
+    static_assert(sizeof(Source) == count * sizeof(From) && sizeof(Target) == count * sizeof(To) &&
+                      std::is_trivially_copyable_v<Source> && std::is_trivially_copyable_v<Target>,
+                  "parameters and history of a law must be aggregates of their scalar type only");
+    std::array<From, count> from;
+    std::array<To, count> to;
+    __builtin_memcpy(&from, &source, sizeof source);
+    for (std::size_t f = 0; f < count; ++f) to[f] = convert(from[f]);
+    Target target;
+    __builtin_memcpy(static_cast<void*>(&target), &to, sizeof target);
+    return target;
+}
+
+/// Rows of aggregates stored pack by pack: [pack][field][lane], so that one pack of pairs reads its fields from
+/// one place, each with one load.
+template <template <class> class Aggregate, class Real, int W>
+class field_packs {
+public:
+    static constexpr std::size_t fields = field_count<Aggregate, Real>;
+    using lanes = pack<Real, W>;
+
+    void resize(std::size_t packs) { data_.resize(packs * fields * W); }
+
+    Aggregate<lanes> load(std::size_t p) const noexcept {
+        std::array<lanes, fields> row;
+        for (std::size_t f = 0; f < fields; ++f) row[f] = lanes::load(&data_[(p * fields + f) * W]);
+        Aggregate<lanes> r;
+        __builtin_memcpy(static_cast<void*>(&r), &row, sizeof r);
+        return r;
+    }
+    void store(std::size_t p, Aggregate<lanes> const& value) noexcept {
+        std::array<lanes, fields> row;
+        __builtin_memcpy(&row, &value, sizeof value);
+        for (std::size_t f = 0; f < fields; ++f) row[f].store(&data_[(p * fields + f) * W]);
+    }
+    /// Entry `k` of all, W to a pack.
+    Aggregate<Real> get(std::size_t k) const noexcept {
+        std::array<Real, fields> row;
+        for (std::size_t f = 0; f < fields; ++f) row[f] = data_[(k / W * fields + f) * W + k % W];
+        Aggregate<Real> r;
+        __builtin_memcpy(static_cast<void*>(&r), &row, sizeof r);
+        return r;
+    }
+    void set(std::size_t k, Aggregate<Real> const& value) noexcept {
+        std::array<Real, fields> row;
+        __builtin_memcpy(&row, &value, sizeof value);
+        for (std::size_t f = 0; f < fields; ++f) data_[(k / W * fields + f) * W + k % W] = row[f];
+    }
+
+private:
+    std::vector<Real, aligned_allocator<Real>> data_;
+};
+
+} // namespace lacuna

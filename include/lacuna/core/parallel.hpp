@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#ifdef _OPENMP
+#include <omp.h>
+#endif
+
+namespace lacuna {
+
+/// Calls body(c) for c in [0, count), on up to `threads` threads when the program is built with OpenMP.
+/// The chunks must not depend on each other; which thread runs which is left open.
+template <class Body>
+void for_each_chunk(int count, [[maybe_unused]] int threads, Body const& body) {
+#ifdef _OPENMP
+    if (threads > 1 && count > 1) {
+#pragma omp parallel for schedule(static) num_threads(threads)
+        for (int c = 0; c < count; ++c) body(c);
+        return;
+    }
+#endif
+    for (int c = 0; c < count; ++c) body(c);
+}
+
+} // namespace lacuna

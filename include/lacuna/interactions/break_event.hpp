@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include <lacuna/core/vec.hpp>
+
+namespace lacuna {
+
+/// How a bond failed, or that it has not.
+enum class bond_state : std::int8_t { intact, broken_in_tension, broken_in_shear };
+
+/// The failure of one bond.
+template <int Dim>
+struct break_event {
+    long long step = 0;                      ///< number of the step in which it failed
+    double time = 0;                         ///< of the state in which the forces exceeded the limit, s
+    std::int32_t bond = 0;                   ///< number of the bond in the input
+    std::array<std::int32_t, 2> particles{}; ///< stable ids, as given in the input
+    bond_state mode = bond_state::intact;
+    vec<double, Dim> position{};             ///< of the contact point, m
+    double normal_force = 0;                 ///< just before the failure, positive in tension, N
+    double shear_force = 0;                  ///< just before the failure, magnitude in 3D, N
+    double energy = 0;                       ///< elastic energy of the bond that the failure destroys, J
+};
+
+} // namespace lacuna

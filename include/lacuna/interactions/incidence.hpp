@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include <lacuna/interactions/pair_loop.hpp>
+
+namespace lacuna {
+
+/// Which pair forces act on each particle: the order of their summation.
+///
+/// Per particle a row of entries, all rows of a chunk of particles equally long (filled up with a zero force), so
+/// that the loop over them has no branch to guess. The order follows the pairs alone: sums have the same bits for
+/// any number of threads.
+template <class Real, int Dim>
+class incidence {
+public:
+    static constexpr int chunk_particles = 128;
+    static constexpr std::int32_t reals_per_pair = std::int32_t(4 * pair_forces<Real, Dim>::records_per_pair);
+
+    /// \param tables the pair tables whose forces lie one after the other in the force column, then one zero
+    template <class... Tables>
+    void build(std::size_t particles, Tables const&... tables) {
+        std::size_t const chunks = (particles + chunk_particles - 1) / chunk_particles;
+        degree_.assign(chunks * chunk_particles, 0);
+        auto const for_each = [&](auto const& visit) {
+            std::int32_t first = 0;
+            (void)std::initializer_list<int>{([&] {
+                for (std::size_t s = 0; s < tables.slots(); ++s)
+                    if (!tables.is_filler(s, particles))
+                        visit(tables.i()[s], tables.j()[s], (first + std::int32_t(s)) * reals_per_pair);
+                first += std::int32_t(tables.slots());
+            }(), 0)...};
+            return first * reals_per_pair;
+        };
+        std::int32_t const zero = for_each([&](std::int32_t i, std::int32_t j, std::int32_t) {
+            ++degree_[std::size_t(i)];
+            ++degree_[std::size_t(j)];
+        });
+        row_.resize(chunks);
+        begin_.resize(chunks + 1);
+        begin_[0] = 0;
+        for (std::size_t c = 0; c < chunks; ++c) {
+            auto const first = degree_.begin() + std::ptrdiff_t(c * chunk_particles);
+            row_[c] = *std::max_element(first, first + chunk_particles);
+            begin_[c + 1] = begin_[c] + std::size_t(row_[c]) * chunk_particles;
+        }
+        entry_.assign(begin_[chunks], zero * 2);
+        std::fill(degree_.begin(), degree_.end(), 0);
+        auto const put = [&](std::int32_t k, std::int32_t value) {
+            std::size_t const c = std::size_t(k) / chunk_particles;
+            entry_[begin_[c] + (std::size_t(k) % chunk_particles) * std::size_t(row_[c]) +
+                   std::size_t(degree_[std::size_t(k)]++)] = value;
+        };
+        for_each([&](std::int32_t i, std::int32_t j, std::int32_t offset) {
+            put(i, 2 * offset);
+            put(j, 2 * offset + 1);
+        });
+    }
+
+    int chunks() const noexcept { return int(row_.size()); }
+    /// Entries per particle in a chunk.
+    int row_length(int chunk) const noexcept { return row_[std::size_t(chunk)]; }
+    /// Entries of the first particle of a chunk; the others follow. Entry = 2 * offset of the force + side.
+    std::int32_t const* rows(int chunk) const noexcept { return entry_.data() + begin_[std::size_t(chunk)]; }
+
+private:
+    std::vector<std::int32_t> degree_, row_, entry_;
+    std::vector<std::size_t> begin_;
+};
+
+/// Sum of the pair forces on the particles of one chunk.
+template <class Real, int Dim>
+class force_sum {
+public:
+    using rec = record<Real>;
+    force_sum(incidence<Real, Dim> const& rows, Real const* forces, int chunk) noexcept
+        : forces_(forces), row_(rows.rows(chunk)), length_(rows.row_length(chunk)) {}
+
+    /// 2D: {F_x, F_y, torque, 0} on particle number `k` of the chunk.
+    rec operator()(int k, Real radius) const noexcept
+        requires(Dim == 2)
+    {
+        rec total(Real(0));
+        std::int32_t const* entry = row_ + std::ptrdiff_t(k) * length_;
+        for (int e = 0; e < length_; ++e) total += rec::load(forces_ + (entry[e] >> 1)) * sign(entry[e] & 1);
+        rec scale(Real(1));
+        scale.v[2] = radius;
+        return total * scale;
+    }
+    /// 3D: force and torque on particle number `k` of the chunk.
+    std::array<rec, 2> operator()(int k, Real radius) const noexcept
+        requires(Dim == 3)
+    {
+        rec force(Real(0)), torque(Real(0));
+        std::int32_t const* entry = row_ + std::ptrdiff_t(k) * length_;
+        for (int e = 0; e < length_; ++e) {
+            force += rec::load(forces_ + (entry[e] >> 1)) * sign(entry[e] & 1);
+            torque += rec::load(forces_ + (entry[e] >> 1) + 4);
+        }
+        return {force, torque * rec(radius)};
+    }
+
+private:
+    // Forces are opposite on the two sides of a pair, torques per radius are equal.
+    static rec sign(int side) noexcept {
+        alignas(32) static constexpr Real table[2][4] = {{1, 1, 1, 1}, {-1, -1, Dim == 2 ? Real(1) : Real(-1), 1}};
+        return rec::load(table[side]);
+    }
+    Real const* forces_;
+    std::int32_t const* row_;
+    int length_;
+};
+
+} // namespace lacuna

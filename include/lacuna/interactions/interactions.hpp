@@ -1,0 +1,412 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <lacuna/core/dual.hpp>
+#include <lacuna/interactions/break_event.hpp>
+#include <lacuna/interactions/incidence.hpp>
+#include <lacuna/interactions/pair_loop.hpp>
+#include <lacuna/laws/damping.hpp>
+#include <lacuna/laws/no_contact.hpp>
+#include <lacuna/neighbors/verlet_list.hpp>
+#include <lacuna/particles/material.hpp>
+
+namespace lacuna {
+
+/// Settings of the pair interactions.
+struct interaction_parameters {
+    /// Verlet skin over the mean radius, 1: how far particles move, together, before candidates are sought anew.
+    double skin = 0.1;
+    /// Pairs whose gap or overlap in the initial packing is below this fraction of the smaller radius start as
+    /// touching at zero force, at the distance they have (MODEL.md section 3); 0: every overlap is a force.
+    double initial_contact_tolerance = 0;
+
+    void validate(std::string const& name) const {
+        require_not_negative(name + ".skin", skin);
+        require_in(name + ".initial_contact_tolerance", initial_contact_tolerance, 0, 0.5);
+    }
+};
+
+/// Bonds and contacts: their tables, histories, forces, and the hand-over from bond to contact.
+template <class Real, int Dim, contact_law<Dim> ContactLaw, bond_law<Dim> BondLaw, damping_policy Damping,
+          neighbor_search Search>
+class interactions {
+public:
+    using store_type = particle_store<Real, Dim>;
+    using contact_table = pair_table<ContactLaw, Real, Dim>;
+    using bond_table = pair_table<BondLaw, Real, Dim>;
+    using material = material_of<ContactLaw, BondLaw>;
+    static constexpr int chunk_particles = contact_table::chunk_particles;
+
+    /// What is kept of a bond for good.
+    struct bond_record {
+        std::array<std::int32_t, 2> particles; ///< stable ids
+        bond_state state = bond_state::intact;
+        std::int32_t slot = -1; ///< place in the bond table while intact
+    };
+
+    interactions() = default;
+    /// \throws std::invalid_argument for bonds between unknown, equal or already bonded particles
+    interactions(store_type const& store, std::span<std::array<std::int32_t, 2> const> bonds,
+                 std::span<material const> materials, double thickness, interaction_parameters const& parameters,
+                 typename Damping::parameters const& damping)
+        : parameters_(parameters), damping_(damping), materials_(int(materials.size())) {
+        for (auto const& a : materials)
+            for (auto const& b : materials) {
+                contact_parameters_.add(ContactLaw::combine(a.contact, b.contact, thickness));
+                bond_parameters_.add(BondLaw::combine(a.bond, b.bond, thickness));
+            }
+        Real gap = 0;
+        add_bonds(store, bonds, gap);
+        double mean = 0, largest = 0;
+        for (Real const r : store.radii()) {
+            mean += double(r) / double(store.size());
+            largest = std::max(largest, double(r));
+        }
+        gap = std::max(gap, Real(parameters.initial_contact_tolerance * largest));
+        neighbors_ = verlet_list<Search>({Real(parameters.skin * mean), gap});
+        if constexpr (!is_absent<ContactLaw>) neighbors_.build(store.positions(), store.radii());
+        rebuild_tables(store, true);
+    }
+
+    /// Seeks contact candidates anew when particles have moved so far that the list could miss one; carries
+    /// out the failures of the last step. To be called before the forces of a step.
+    /// \param moved upper bound of the path of any particle since the last call
+    /// \return whether the tables have changed
+    bool update(store_type const& store, Real moved) {
+        bool sought = false;
+        if constexpr (!is_absent<ContactLaw>) {
+            path_ += moved;
+            if (!(path_ <= neighbors_.settings().skin / 2)) {
+                // The sum of the largest steps over-estimates every path: measure before searching.
+                path_ = neighbors_.largest_displacement(store.positions());
+                // Half the slack is used by then: a list that is measured again at once is not worth keeping.
+                if (!(path_ <= neighbors_.settings().skin * Real(0.375))) {
+                    neighbors_.build(store.positions(), store.radii());
+                    path_ = 0;
+                    sought = true;
+                }
+            }
+        }
+        if (sought || !broken_.empty()) {
+            rebuild_tables(store, false);
+            return true;
+        }
+        return false;
+    }
+
+    int chunks() const noexcept { return rows_.chunks(); }
+
+    /// Pair forces of the pairs that a chunk of particles owns. Chunks are independent of each other.
+    template <bool WithEnergy>
+    void evaluate(store_type const& store, int chunk, Real time_step) {
+        auto& energy = energy_[std::size_t(chunk)];
+        energy = {};
+        if constexpr (!is_absent<BondLaw>)
+            evaluate_chunk<pair_kind::bond, WithEnergy, BondLaw, Damping>(
+                bonds_, chunk, bond_parameters_, damping_, store, time_step, forces_.of(0), energy[0],
+                [&](std::size_t pack) { break_bonds(store, chunk, pack, time_step); });
+        if constexpr (!is_absent<ContactLaw>)
+            evaluate_chunk<pair_kind::contact, WithEnergy, ContactLaw, Damping>(
+                contacts_, chunk, contact_parameters_, damping_, store, time_step, forces_.of(bonds_.slots()), energy[1],
+                [&](std::size_t pack) { note_deep_overlap(store, chunk, pack); });
+    }
+    /// Sum of pair forces on the particles of a chunk, once all pairs that concern them are evaluated: those of
+    /// the chunks up to and including this one, because a pair belongs to its lower-numbered particle.
+    force_sum<Real, Dim> forces_on(int chunk) const noexcept { return {rows_, forces_.of(0), chunk}; }
+
+    /// Failures of the step just evaluated, in the order of the pairs; to be completed with step and time.
+    std::span<break_event<Dim> const> collect_events() {
+        events_.clear();
+        fracture_energy_ = 0;
+        for (auto& chunk : chunk_events_) {
+            for (auto& e : chunk) {
+                events_.push_back(e.event);
+                broken_.push_back(e.contact);
+                fracture_energy_ += e.released;
+                auto& record = bond_records_[std::size_t(e.event.bond)];
+                record.state = e.event.mode;
+                record.slot = -1;
+            }
+            chunk.clear();
+        }
+        return events_;
+    }
+    /// Energy that the failures of the step took out of the springs, consistent with the integrator, J.
+    double fracture_energy() const noexcept { return fracture_energy_; }
+
+    /// Energies of the last evaluation with energies, summed over the chunks in their order.
+    pair_energy energy() const noexcept {
+        pair_energy total;
+        for (auto const& chunk : energy_)
+            for (auto const& e : chunk) {
+                total.stored += e.stored;
+                total.dissipated += e.dissipated;
+                total.damped += e.damped;
+            }
+        return total;
+    }
+
+    /// Internal index of a particle that overlaps another by more than a radius, -1 when there is none.
+    std::int32_t deep_overlap() const noexcept {
+        for (auto const k : deep_overlap_)
+            if (k >= 0) return k;
+        return -1;
+    }
+
+    /// Calls visit(i, j, normal, normal_stiffness, shear_stiffness, prestress, lever_i, lever_j) for every bond and
+    /// for every contact candidate as if it touched: what a bound of the stable time step has to count with.
+    /// Stiffnesses in N/m are the laws' own derivatives.
+    template <class Visit>
+    void for_each_stiffness(store_type const& store, Visit const& visit) const {
+        if constexpr (!is_absent<BondLaw>) visit_stiffness<BondLaw>(store, bonds_, bond_parameters_, 0, visit);
+        if constexpr (!is_absent<ContactLaw>)
+            visit_stiffness<ContactLaw>(store, contacts_, contact_parameters_, bonds_.slots(), visit);
+    }
+
+    /// Slot of the pair (i, j), internal indices in any order: bonds first, then contacts; -1 if it is in neither.
+    std::int32_t find_slot(std::int32_t i, std::int32_t j) const noexcept {
+        if (i > j) std::swap(i, j);
+        if (auto const s = bonds_.find(i, j); s >= 0) return s;
+        auto const s = contacts_.find(i, j);
+        return s < 0 ? -1 : s + std::int32_t(bonds_.slots());
+    }
+
+    bond_table const& bonds() const noexcept { return bonds_; }
+    contact_table const& contacts() const noexcept { return contacts_; }
+    std::span<bond_record const> bond_records() const noexcept { return bond_records_; }
+    parameter_table<ContactLaw, Real> const& contact_parameters() const noexcept { return contact_parameters_; }
+    parameter_table<BondLaw, Real> const& bond_parameters() const noexcept { return bond_parameters_; }
+    typename Damping::parameters const& damping() const noexcept { return damping_; }
+    verlet_list<Search> const& neighbors() const noexcept { return neighbors_; }
+    /// Force record of a slot, as last evaluated: bonds first, then contacts.
+    Real const* pair_force(std::size_t slot) const noexcept { return forces_.of(slot); }
+
+private:
+    using contact_entry = typename contact_table::entry;
+    using bond_entry = typename bond_table::entry;
+    struct pending_event {
+        break_event<Dim> event;
+        contact_entry contact;
+        double released;
+    };
+
+    template <class Law, class Table, class Visit>
+    void visit_stiffness(store_type const& store, Table const& table, parameter_table<Law, Real> const& parameters,
+                         std::size_t first_slot, Visit const& visit) const {
+        using number = dual<double, 2>;
+        for (std::size_t s = 0; s < table.slots(); ++s) {
+            if (table.is_filler(s, store.size())) continue;
+            auto const i = std::size_t(table.i()[s]), j = std::size_t(table.j()[s]);
+            vec<double, Dim> arm{};
+            for (int axis = 0; axis < Dim; ++axis)
+                arm[axis] = double(store.position(j)[axis]) - double(store.position(i)[axis]);
+            double const distance = norm(arm), ri = double(store.radius(i)), rj = double(store.radius(j));
+            bool constexpr bond = std::is_same_v<Law, BondLaw>;
+            // A contact that is open now is read as if it just touched.
+            double const at = bond ? distance : std::min(distance, (ri + rj) * (1 - 1e-6));
+            pair_motion<number, Dim> m{};
+            m.distance = number::variable(at, 0);
+            m.radius_i = number(ri);
+            m.radius_j = number(rj);
+            m.slip[0] = number::variable(0, 1);
+            auto const p = convert_fields<number, Real, typename Law::template parameters<number>>(
+                parameters.row[std::size_t(table.parameter()[s])], [](Real x) { return number(double(x)); });
+            auto const state = Law::template initial<number, Dim>(number(bond ? at : ri + rj), number(ri + rj));
+            auto const answer = Law::evaluate(p, m, state);
+            double const coupling = std::max(std::fabs(answer.normal_force.derivative[1]),
+                                             std::fabs(answer.shear_force[0].derivative[0]));
+            Real const* force = forces_.of(first_slot + s);
+            double squared = 0;
+            for (int axis = 0; axis < Dim; ++axis) squared += double(force[axis]) * double(force[axis]);
+            visit(i, j, arm / distance, std::fabs(answer.normal_force.derivative[0]) + coupling,
+                  std::fabs(answer.shear_force[0].derivative[1]) + coupling, std::sqrt(squared) / distance,
+                  distance * ri / (ri + rj), distance * rj / (ri + rj));
+        }
+    }
+
+    void add_bonds(store_type const& store, std::span<std::array<std::int32_t, 2> const> bonds, Real& gap) {
+        for (std::size_t b = 0; b < bonds.size(); ++b) {
+            std::string const name = "bond " + std::to_string(b);
+            for (auto const id : bonds[b]) require_in(name + ".particle", id, 0, double(store.size()) - 1);
+            if (bonds[b][0] == bonds[b][1]) refuse(name + ".particles", double(bonds[b][0]), "two different ones");
+            auto i = store.internal(std::size_t(bonds[b][0])), j = store.internal(std::size_t(bonds[b][1]));
+            if (i > j) std::swap(i, j);
+            Real const touching = store.radius(std::size_t(i)) + store.radius(std::size_t(j));
+            Real const distance = norm(store.position(std::size_t(j)) - store.position(std::size_t(i)));
+            if (!(distance > 0)) refuse(name + ".distance", double(distance), "> 0");
+            gap = std::max(gap, distance - touching);
+            bond_records_.push_back({bonds[b]});
+            bond_entries_.push_back({i, j, parameter_row(store, i, j), std::int32_t(b),
+                                     BondLaw::template initial<Real, Dim>(distance, touching)});
+        }
+        std::sort(bond_entries_.begin(), bond_entries_.end(), before<bond_entry>);
+        for (std::size_t b = 1; b < bond_entries_.size(); ++b)
+            if (!before(bond_entries_[b - 1], bond_entries_[b]))
+                refuse("bond " + std::to_string(bond_entries_[b].label), "a repeated pair", "given once");
+    }
+
+    template <class Entry>
+    static bool before(Entry const& a, Entry const& b) noexcept {
+        return a.i < b.i || (a.i == b.i && a.j < b.j);
+    }
+    std::int32_t parameter_row(store_type const& store, std::int32_t i, std::int32_t j) const noexcept {
+        return store.material(std::size_t(i)) * materials_ + store.material(std::size_t(j));
+    }
+
+    void rebuild_tables(store_type const& store, bool first) {
+        bool const bonds_change = first || !broken_.empty();
+        if (bonds_change) {
+            if (!first) take_entries(bonds_, store.size(), bond_entries_);
+            std::erase_if(bond_entries_, [&](bond_entry const& e) {
+                return bond_records_[std::size_t(e.label)].state != bond_state::intact;
+            });
+        }
+        if constexpr (!is_absent<ContactLaw>) {
+            take_entries(contacts_, store.size(), old_contacts_);
+            old_contacts_.insert(old_contacts_.end(), broken_.begin(), broken_.end());
+            if (!broken_.empty()) std::sort(old_contacts_.begin(), old_contacts_.end(), before<contact_entry>);
+            merge_contacts(store, first);
+            contacts_.assign(new_contacts_, store.size(), store.ghost(0), store.ghost(1));
+        }
+        if (bonds_change) {
+            bonds_.assign(bond_entries_, store.size(), store.ghost(0), store.ghost(1));
+            for (std::size_t s = 0; s < bonds_.slots(); ++s)
+                if (!bonds_.is_filler(s, store.size()))
+                    bond_records_[std::size_t(bonds_.label(s))].slot = std::int32_t(s);
+        }
+        broken_.clear();
+        rows_.build(store.size(), bonds_, contacts_);
+        forces_.column.resize((bonds_.slots() + contacts_.slots() + 1) * pair_forces<Real, Dim>::records_per_pair);
+        std::size_t const zero = bonds_.slots() + contacts_.slots();
+        for (std::size_t k = 0; k < 4 * pair_forces<Real, Dim>::records_per_pair; ++k) forces_.of(zero)[k] = 0;
+        auto const chunks = std::size_t(rows_.chunks());
+        chunk_events_.resize(chunks);
+        energy_.resize(chunks);
+        deep_overlap_.assign(chunks, -1);
+    }
+
+    template <class Table, class Entry>
+    static void take_entries(Table const& table, std::size_t particles, std::vector<Entry>& out) {
+        out.clear();
+        for (std::size_t s = 0; s < table.slots(); ++s)
+            if (!table.is_filler(s, particles)) out.push_back(table.get(s));
+    }
+
+    /// The candidates of the neighbour list without the bonded pairs, each with the history it had.
+    void merge_contacts(store_type const& store, bool first) {
+        new_contacts_.clear();
+        auto bond = bond_entries_.begin();
+        auto old = old_contacts_.begin();
+        for (neighbor_pair const& pair : neighbors_.pairs()) {
+            auto const earlier = [&](auto const& e) { return e.i < pair.i || (e.i == pair.i && e.j < pair.j); };
+            auto const same = [&](auto const& e) { return e.i == pair.i && e.j == pair.j; };
+            while (bond != bond_entries_.end() && earlier(*bond)) ++bond;
+            if (bond != bond_entries_.end() && same(*bond)) continue;
+            while (old != old_contacts_.end() && earlier(*old)) ++old;
+            if (old != old_contacts_.end() && same(*old)) {
+                new_contacts_.push_back(*old);
+                continue;
+            }
+            auto const i = std::size_t(pair.i), j = std::size_t(pair.j);
+            Real const touching = store.radius(i) + store.radius(j);
+            Real start = touching;
+            if (first) {
+                Real const distance = norm(store.position(j) - store.position(i));
+                Real const tolerance =
+                    Real(parameters_.initial_contact_tolerance) * std::min(store.radius(i), store.radius(j));
+                if (abs(distance - touching) <= tolerance) start = distance;
+            }
+            new_contacts_.push_back({pair.i, pair.j, parameter_row(store, pair.i, pair.j), -1,
+                                     ContactLaw::template initial<Real, Dim>(start, touching)});
+        }
+    }
+
+    /// The bonds of one pack that have just failed: their event, the contact that takes over, and its force.
+    [[gnu::noinline]] void break_bonds(store_type const& store, int chunk, std::size_t pack, Real time_step) {
+        for (std::size_t s = pack * bond_table::width; s < (pack + 1) * bond_table::width; ++s) {
+            if (bonds_.is_filler(s, store.size())) continue;
+            // The loop has already written the new history: read the step without its slip.
+            bond_entry const e = bonds_.get(s);
+            auto const i = load_body(store, std::size_t(e.i)), j = load_body(store, std::size_t(e.j));
+            auto frame = relative_motion(i, j, time_step);
+            auto const slip = frame.motion.slip;
+            frame.motion.slip = {};
+            auto const answer = BondLaw::evaluate(bond_parameters_.row[std::size_t(e.parameter)], frame.motion, e.state);
+            if (!answer.broken) continue;
+
+            auto const& law = contact_parameters_.row[std::size_t(parameter_row(store, e.i, e.j))];
+            Real const touching = frame.motion.touching_distance();
+            auto state = ContactLaw::template initial<Real, Dim>(std::min(frame.motion.distance, touching), touching);
+            if (!answer.broken_in_tension)
+                state = ContactLaw::hand_over(law, frame.motion, answer.normal_force, answer.shear_force);
+            auto const contact = ContactLaw::evaluate(law, frame.motion, state);
+            store_body_force(forces_.of(s), frame.force(contact.normal_force, contact.shear_force),
+                             frame.torque_per_radius(contact.shear_force));
+
+            pending_event p{};
+            p.event.bond = e.label;
+            p.event.particles = {store.id(std::size_t(e.i)), store.id(std::size_t(e.j))};
+            p.event.mode = answer.broken_in_tension ? bond_state::broken_in_tension : bond_state::broken_in_shear;
+            for (int axis = 0; axis < Dim; ++axis)
+                p.event.position[axis] =
+                    double(i.position[axis] + frame.normal[axis] * (frame.lever * i.radius));
+            p.event.normal_force = double(answer.normal_force);
+            p.event.shear_force = Dim == 2 ? double(answer.shear_force[0]) : double(norm(answer.shear_force));
+            p.event.energy = double(answer.stored_energy);
+            // The integrator sees the mean of old and new force over the step: what the springs lose to the
+            // failure is the stored energy less the work that the missing force would have done.
+            p.released = double(answer.stored_energy - contact.stored_energy) -
+                         0.5 * double((answer.normal_force - contact.normal_force) * frame.motion.normal_rate * time_step) -
+                         0.5 * double(dot(answer.shear_force - contact.shear_force, slip));
+            p.contact = {e.i, e.j, parameter_row(store, e.i, e.j), -1, contact.history};
+            energy_[std::size_t(chunk)][2].stored += double(contact.stored_energy);
+            energy_[std::size_t(chunk)][2].stored -= double(answer.stored_energy);
+            chunk_events_[std::size_t(chunk)].push_back(p);
+        }
+    }
+
+    static void store_body_force(Real* to, vec<Real, Dim> const& force, vec<Real, rotation_dim<Dim>> const& torque) {
+        if constexpr (Dim == 2) {
+            to[0] = force[0], to[1] = force[1], to[2] = torque[0];
+        } else {
+            for (int axis = 0; axis < 3; ++axis) to[axis] = force[axis], to[4 + axis] = torque[axis];
+        }
+    }
+
+    [[gnu::noinline]] void note_deep_overlap(store_type const& store, int chunk, std::size_t pack) {
+        for (std::size_t s = pack * contact_table::width; s < (pack + 1) * contact_table::width; ++s) {
+            if (contacts_.is_filler(s, store.size())) continue;
+            auto const i = std::size_t(contacts_.i()[s]), j = std::size_t(contacts_.j()[s]);
+            Real const distance = norm(store.position(j) - store.position(i));
+            if (distance < std::max(store.radius(i), store.radius(j)))
+                deep_overlap_[std::size_t(chunk)] = contacts_.i()[s];
+        }
+    }
+
+    interaction_parameters parameters_;
+    typename Damping::parameters damping_;
+    int materials_ = 0;
+    parameter_table<ContactLaw, Real> contact_parameters_;
+    parameter_table<BondLaw, Real> bond_parameters_;
+    verlet_list<Search> neighbors_;
+    Real path_ = 0;
+    bond_table bonds_;
+    contact_table contacts_;
+    pair_forces<Real, Dim> forces_;
+    incidence<Real, Dim> rows_;
+    std::vector<bond_record> bond_records_;
+    std::vector<bond_entry> bond_entries_;
+    std::vector<contact_entry> old_contacts_, new_contacts_, broken_;
+    std::vector<std::vector<pending_event>> chunk_events_;
+    std::vector<break_event<Dim>> events_;
+    std::vector<std::array<pair_energy, 3>> energy_; // of bonds, of contacts, correction for bonds that failed
+    std::vector<std::int32_t> deep_overlap_;
+    double fracture_energy_ = 0;
+};
+
+} // namespace lacuna

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cmath>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <lacuna/interactions/pair_loop.hpp>
+
+namespace lacuna {
+
+/// A rigid, infinite plane. Particles are on the side to which its normal points.
+template <class ContactLaw, int Dim>
+struct wall {
+    vec<double, Dim> point{};  ///< on the plane, m
+    vec<double, Dim> normal{}; ///< any length > 0
+    typename ContactLaw::material material{};
+
+    void validate(std::string const& name) const {
+        for (int axis = 0; axis < Dim; ++axis) require_finite(name + ".point", point[axis]);
+        double const length = norm(normal);
+        if (!(length > 0) || !std::isfinite(length)) refuse(name + ".normal", length, "a vector of finite length > 0");
+        material.validate(name + ".material");
+    }
+};
+
+/// Contacts of particles with walls, by the model's contact law. To the law a wall is a body of radius 0 at the
+/// particle's foot point: the lever arm is the particle's distance from the plane.
+template <class ContactLaw, class Damping, class Real, int Dim>
+class wall_contacts {
+public:
+    using wall_type = wall<ContactLaw, Dim>;
+    template <class T>
+    using history_of = typename ContactLaw::template history<T, Dim>;
+
+    wall_contacts() = default;
+    wall_contacts(std::span<wall_type const> walls, std::span<typename ContactLaw::material const> materials,
+                  double thickness)
+        : walls_(walls.begin(), walls.end()), materials_(materials.size()), force_(walls.size()) {
+        for (std::size_t w = 0; w < walls_.size(); ++w) {
+            walls_[w].validate("wall " + std::to_string(w));
+            walls_[w].normal = walls_[w].normal / norm(walls_[w].normal);
+            for (auto const& m : materials) parameters_.add(ContactLaw::combine(m, walls_[w].material, thickness));
+        }
+    }
+
+    bool empty() const noexcept { return walls_.empty(); }
+
+    /// Lists the particles that may touch a wall before they have moved by `reach`, keeping known histories.
+    void update(particle_store<Real, Dim> const& store, Real reach) {
+        std::vector<near_wall> fresh;
+        std::size_t old = 0;
+        for (std::size_t w = 0; w < walls_.size(); ++w)
+            for (std::size_t k = 0; k < store.size(); ++k) {
+                Real const r = store.radius(k);
+                bool const close = height(store.position(k), w) <= r + reach;
+                while (old < near_.size() &&
+                       (near_[old].plane < w || (near_[old].plane == w && near_[old].particle < k)))
+                    ++old;
+                bool const known = old < near_.size() && near_[old].plane == w && near_[old].particle == k;
+                if (close) fresh.push_back(known ? near_[old] : near_wall{w, k, ContactLaw::template initial<Real, Dim>(r, r)});
+            }
+        near_ = std::move(fresh);
+    }
+
+    /// Adds the forces of the walls to `out`: a record {F_x, F_y, torque, 0} per particle in 2D, two records
+    /// (force, torque) in 3D.
+    /// \return internal index of a particle whose centre is beyond a wall, or -1
+    std::int32_t evaluate(particle_store<Real, Dim> const& store, Real time_step,
+                          typename Damping::parameters const& damping, record_column<Real>& out, pair_energy& energy) {
+        std::int32_t beyond = -1;
+        for (auto& f : force_) f = {};
+        energy = {};
+        for (auto& n : near_) {
+            auto const i = load_body(store, n.particle);
+            vec<Real, Dim> normal{};
+            for (int axis = 0; axis < Dim; ++axis) normal[axis] = Real(walls_[n.plane].normal[axis]);
+            Real const distance = height(i.position, n.plane);
+            if (!(distance > 0)) beyond = std::int32_t(n.particle);
+            body<Real, Dim> const j{i.position - normal * distance, {}, {}, Real(0), i.mass};
+            // The foot point follows the particle along the wall, so the pair never turns: the slip is the
+            // particle's own motion against the plane.
+            auto frame = relative_motion(i, j, time_step);
+            frame.normal = -normal;
+            frame.motion.distance = distance;
+            frame.motion.normal_rate = dot(normal, i.velocity);
+            frame.motion.slip = slip(i, normal, distance, time_step);
+            auto const& law = parameters_.row[n.plane * materials_ + std::size_t(store.material(n.particle))];
+            auto const answer = ContactLaw::evaluate(law, frame.motion, n.state);
+            Real normal_force = answer.normal_force;
+            if constexpr (Damping::acts_on_pairs) {
+                // A wall has no mass of its own to share the motion: the effective mass is the particle's.
+                Real const drag = Damping::pair_force(damping, ContactLaw::stiffness(law), 2 * i.mass, 2 * i.mass,
+                                                      frame.motion.normal_rate);
+                if (normal_force < 0) normal_force = std::min(normal_force + drag, Real(0));
+                energy.damped += double((normal_force - answer.normal_force) * frame.motion.normal_rate * time_step);
+            }
+            n.state = answer.history;
+            energy.stored += double(answer.stored_energy);
+            energy.dissipated += double(answer.dissipated_energy);
+            auto const force = frame.force(normal_force, answer.shear_force);
+            auto const torque = frame.torque_per_radius(answer.shear_force) * i.radius;
+            std::size_t const row = n.particle * pair_forces<Real, Dim>::records_per_pair;
+            for (int axis = 0; axis < Dim; ++axis) {
+                out.at(row, axis) += force[axis];
+                force_[n.plane][axis] -= double(force[axis]);
+            }
+            for (int axis = 0; axis < rotation_dim<Dim>; ++axis)
+                out.at(Dim == 2 ? row : row + 1, Dim == 2 ? 2 : axis) += torque[axis];
+        }
+        return beyond;
+    }
+
+    /// Force of the particles on a wall in the last evaluation, N.
+    vec<double, Dim> force(std::size_t w) const noexcept { return force_[w]; }
+
+    /// Calls visit(particle, normal, parameters) for each particle that may touch a wall.
+    template <class Visit>
+    void for_each_near(particle_store<Real, Dim> const& store, Visit const& visit) const {
+        for (auto const& n : near_)
+            visit(n.particle, walls_[n.plane].normal,
+                  parameters_.row[n.plane * materials_ + std::size_t(store.material(n.particle))]);
+    }
+
+private:
+    struct near_wall {
+        std::size_t plane, particle;
+        history_of<Real> state;
+    };
+
+    Real height(vec<Real, Dim> const& x, std::size_t w) const noexcept {
+        double h = 0;
+        for (int axis = 0; axis < Dim; ++axis)
+            h += (double(x[axis]) - walls_[w].point[axis]) * walls_[w].normal[axis];
+        return Real(h);
+    }
+    static vec<Real, shear_dim<Dim>> slip(body<Real, Dim> const& i, vec<Real, Dim> const& normal, Real distance,
+                                          Real time_step) {
+        if constexpr (Dim == 2) {
+            return {(-dot(perpendicular(-normal), i.velocity) - distance * i.spin[0]) * time_step};
+        } else {
+            auto const along = i.velocity - normal * dot(normal, i.velocity);
+            return (-along - cross(i.spin, -normal) * distance) * time_step;
+        }
+    }
+
+    std::vector<wall_type> walls_;
+    std::size_t materials_ = 0;
+    parameter_table<ContactLaw, Real> parameters_;
+    std::vector<near_wall> near_;
+    std::vector<vec<double, Dim>> force_;
+};
+
+} // namespace lacuna

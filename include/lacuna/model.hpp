@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <concepts>
+#include <cstdint>
+#include <string>
+
+#include <lacuna/laws/brittle_spring_bond.hpp>
+#include <lacuna/laws/damping.hpp>
+#include <lacuna/laws/frictional_spring.hpp>
+#include <lacuna/laws/no_contact.hpp>
+#include <lacuna/motion/symplectic_euler.hpp>
+#include <lacuna/neighbors/cell_grid.hpp>
+
+namespace lacuna {
+
+/// No fluid.
+struct no_flow {
+    static constexpr bool active = false;
+    struct parameters {
+        void validate(std::string const&) const {}
+    };
+};
+
+/// The parts of a simulator that a model does not name itself. A model starts from it and overrides by name:
+/// \code
+/// struct my_model : lacuna::default_model<2> {
+///     using damping = lacuna::local_damping;
+/// };
+/// \endcode
+template <int Dim, class Real = double>
+struct default_model {
+    static constexpr int dim = Dim;
+    using real = Real;
+    using contact_law = frictional_spring;
+    using bond_law = brittle_spring_bond;
+    using damping = no_damping;
+    using flow = no_flow;
+    using integrator = symplectic_euler;
+    template <class R, int D>
+    using search = cell_grid<R, D>;
+};
+
+/// A fluid in the pores: no_flow, or a policy as explicit_flow.
+template <class F>
+concept flow_policy = requires(typename F::parameters const& p) {
+    { F::active } -> std::convertible_to<bool>;
+    p.validate("flow");
+};
+
+template <class M>
+concept model = requires {
+    requires M::dim == 2 || M::dim == 3;
+    requires std::floating_point<typename M::real>;
+    requires contact_law<typename M::contact_law, M::dim>;
+    requires bond_law<typename M::bond_law, M::dim>;
+    requires damping_policy<typename M::damping>;
+    requires flow_policy<typename M::flow>;
+    requires integrator<typename M::integrator>;
+    requires neighbor_search<typename M::template search<typename M::real, M::dim>>;
+};
+
+} // namespace lacuna

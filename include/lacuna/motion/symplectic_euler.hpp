@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <concepts>
+
+#include <lacuna/core/records.hpp>
+#include <lacuna/particles/store.hpp>
+
+namespace lacuna {
+
+/// What one chunk of particles reports from its motion in one step.
+template <class Real>
+struct motion_report {
+    record<Real> fastest{Real(0)}; ///< largest |velocity| by component, m/s
+    record<Real> poison{Real(0)};  ///< zero; not a number once a velocity is not finite
+    double kinetic = 0;            ///< kinetic energy at the positions of the forces, J
+    double load_before = 0;        ///< power of loads and prescribed motion with the old velocity, W
+    double load_after = 0;         ///< the same with the new velocity, W
+    double damping_before = 0;     ///< power of the particles' damping force with the old velocity, W
+    double damping_after = 0;      ///< the same with the new velocity, W
+};
+
+/// The semi-implicit (symplectic) Euler step of eq. 3 to 8: new velocity from the old force, new position from
+/// the new velocity. Velocities stand half a step before positions; it is the leapfrog scheme, of second order.
+struct symplectic_euler {
+    /// Advances `count` particles from `first` on by one step.
+    /// \param pair_force pair_force(k, radius): sum of the pair forces on particle first + k
+    /// \param extra further forces of this step, or nullptr; per particle a record {F_x, F_y, torque, 0} in 2D, two
+    ///        records (force, torque) in 3D
+    template <bool WithEnergy, class Damping, class Real, int Dim, class PairForce>
+    [[gnu::noinline]] static void advance(particle_store<Real, Dim>& store, std::size_t first, int count,
+                                          Real time_step, PairForce const& pair_force,
+                                          typename Damping::parameters const& damping,
+                                          record_column<Real> const* extra, motion_report<Real>& report) {
+        using rec = record<Real>;
+        rec const dt(time_step);
+        rec path(time_step); // the fourth lane holds the radius
+        path.v[3] = 0;
+        rec fastest(Real(0)), poison(Real(0));
+        for (int k = 0; k < count; ++k) {
+            std::size_t const p = first + std::size_t(k);
+            rec const place = store.place()[p];
+            rec const velocity = store.velocities()[p];
+            rec load = store.loads()[p];
+            if constexpr (Dim == 2) {
+                rec force = pair_force(k, Real(place.v[3])) + load;
+                if (extra) force += (*extra)[p];
+                rec const drag = Damping::particle_force(damping, force, velocity);
+                if constexpr (Damping::acts_on_particles) force += drag;
+                rec const next = velocity + force * store.inverse_masses()[p] * dt;
+                store.velocities().set(p, next);
+                store.place().set(p, place + next * path);
+                rec const size = abs(next);
+                fastest = max(size, fastest);
+                poison += next * rec(Real(0));
+                if constexpr (WithEnergy) add_energy(store, p, velocity, next, load, force, drag, report);
+            } else {
+                auto [force, torque] = pair_force(k, Real(place.v[3]));
+                force += load;
+                if (extra) {
+                    force += (*extra)[2 * p];
+                    torque += (*extra)[2 * p + 1];
+                }
+                rec const drag = Damping::particle_force(damping, force, velocity);
+                if constexpr (Damping::acts_on_particles) force += drag;
+                rec const next = velocity + force * store.inverse_masses()[p] * dt;
+                store.velocities().set(p, next);
+                store.place().set(p, place + next * path);
+                rec const spin = store.spins()[p];
+                if constexpr (Damping::acts_on_particles) torque += Damping::particle_force(damping, torque, spin);
+                rec const turned = spin + torque * store.inverse_inertias()[p] * dt;
+                store.spins().set(p, turned);
+                store.quaternions().set(p, turn(store.quaternions()[p], turned, time_step));
+                fastest = max(abs(next), fastest);
+                poison += (next + turned) * rec(Real(0));
+                if constexpr (WithEnergy) {
+                    add_energy(store, p, velocity, next, load, force, drag, report);
+                    Real const inertia = store.moment_of_inertia(p);
+                    for (int axis = 0; axis < 3; ++axis)
+                        report.kinetic += 0.5 * double(inertia * spin[axis] * turned[axis]);
+                }
+            }
+        }
+        report.fastest = fastest;
+        report.poison = poison;
+    }
+
+private:
+    /// Eq. 8 in space: the unit quaternion turned by spin * dt, renormalised.
+    template <class Real>
+    static record<Real> turn(record<Real> q, record<Real> w, Real time_step) {
+        Real const h = Real(0.5) * time_step;
+        record<Real> r;
+        r.v[0] = q[0] - h * (w[0] * q[1] + w[1] * q[2] + w[2] * q[3]);
+        r.v[1] = q[1] + h * (w[0] * q[0] + w[1] * q[3] - w[2] * q[2]);
+        r.v[2] = q[2] + h * (w[1] * q[0] + w[2] * q[1] - w[0] * q[3]);
+        r.v[3] = q[3] + h * (w[2] * q[0] + w[0] * q[2] - w[1] * q[1]);
+        return r * record<Real>(Real(1) / std::sqrt(sum(r * r)));
+    }
+
+    /// The kinetic energy at the time of the positions is the product of the velocities half a step before and
+    /// after it: with it, and with work as mean force times displacement, a linear system's energy adds up to
+    /// rounding in this scheme. A prescribed motion does the work that its reaction, minus the force, does.
+    template <class Real, int Dim>
+    static void add_energy(particle_store<Real, Dim> const& store, std::size_t p, record<Real> before,
+                           record<Real> after, record<Real> load, record<Real> force, record<Real> drag,
+                           motion_report<Real>& report) {
+        for (int axis = 0; axis < 3; ++axis) {
+            bool const turning = Dim == 2 && axis == 2;
+            double const old_velocity = double(before[axis]), new_velocity = double(after[axis]);
+            double const inertia = double(turning ? store.moment_of_inertia(p) : store.mass(p));
+            report.kinetic += 0.5 * inertia * old_velocity * new_velocity;
+            bool const held = store.inverse_masses().at(p, axis) == Real(0);
+            double const outside = held ? double(load[axis] - force[axis]) : double(load[axis]);
+            report.load_before += outside * old_velocity;
+            report.load_after += outside * new_velocity;
+            report.damping_before += double(drag[axis]) * old_velocity;
+            report.damping_after += double(drag[axis]) * new_velocity;
+        }
+    }
+};
+
+/// An integrator advances the particles of a chunk; see symplectic_euler.
+template <class I>
+concept integrator = std::default_initializable<I> && requires { typename motion_report<double>; };
+
+} // namespace lacuna

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <concepts>
+#include <type_traits>
+
+namespace lacuna {
+
+/// Moments of a run at which an observer can be called.
+enum class stage : unsigned {
+    start = 1,    ///< on_start(simulation const&), before the first step
+    step = 2,     ///< on_step(simulation const&), after each step
+    breakage = 4, ///< on_break(break_event const&, simulation const&), for each bond that fails, in order
+    end = 8       ///< on_end(simulation const&), after the last step, also of a run that was stopped
+};
+constexpr stage operator|(stage a, stage b) noexcept { return stage(unsigned(a) | unsigned(b)); }
+constexpr bool has(stage set, stage one) noexcept { return (unsigned(set) & unsigned(one)) != 0; }
+
+/// What on_step may answer; an observer whose on_step returns void never stops a run.
+enum class run_control { go_on, stop };
+
+/// An observer declares the stages it wants as `static constexpr stage stages`. Each declared stage must be
+/// callable: a misspelt or ill-typed hook is an error of compilation. With
+/// `static constexpr bool needs_energy = true` the energy ledger is kept during its runs.
+template <class O>
+concept observer = requires {
+    { std::remove_cvref_t<O>::stages } -> std::convertible_to<stage>;
+};
+
+namespace detail {
+
+template <class O>
+inline constexpr bool needs_energy = requires { requires std::remove_cvref_t<O>::needs_energy; };
+
+template <class Simulation, class Event, class O>
+constexpr void check_observer() {
+    using type = std::remove_cvref_t<O>;
+    constexpr stage wanted = type::stages;
+    if constexpr (has(wanted, stage::start))
+        static_assert(requires(type & o, Simulation const& s) { o.on_start(s); },
+                      "observer declares stage::start but on_start(simulation const&) cannot be called");
+    if constexpr (has(wanted, stage::step))
+        static_assert(requires(type & o, Simulation const& s) { o.on_step(s); },
+                      "observer declares stage::step but on_step(simulation const&) cannot be called");
+    if constexpr (has(wanted, stage::breakage))
+        static_assert(requires(type & o, Event const& e, Simulation const& s) { o.on_break(e, s); },
+                      "observer declares stage::breakage but on_break(break_event const&, simulation const&) "
+                      "cannot be called");
+    if constexpr (has(wanted, stage::end))
+        static_assert(requires(type & o, Simulation const& s) { o.on_end(s); },
+                      "observer declares stage::end but on_end(simulation const&) cannot be called");
+    // The opposite slip: a hook that is there but was not declared would silently never be called.
+    if constexpr (!has(wanted, stage::start))
+        static_assert(!requires(type & o, Simulation const& s) { o.on_start(s); }, "on_start is not among the stages");
+    if constexpr (!has(wanted, stage::step))
+        static_assert(!requires(type & o, Simulation const& s) { o.on_step(s); }, "on_step is not among the stages");
+    if constexpr (!has(wanted, stage::breakage))
+        static_assert(!requires(type & o, Event const& e, Simulation const& s) { o.on_break(e, s); },
+                      "on_break is not among the stages");
+    if constexpr (!has(wanted, stage::end))
+        static_assert(!requires(type & o, Simulation const& s) { o.on_end(s); }, "on_end is not among the stages");
+}
+
+} // namespace detail
+} // namespace lacuna

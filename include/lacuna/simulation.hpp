@@ -1,0 +1,474 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <lacuna/core/parallel.hpp>
+#include <lacuna/interactions/interactions.hpp>
+#include <lacuna/interactions/walls.hpp>
+#include <lacuna/model.hpp>
+#include <lacuna/motion/stable_step.hpp>
+#include <lacuna/observe/energy_ledger.hpp>
+#include <lacuna/observe/observer.hpp>
+#include <lacuna/particles/spatial_order.hpp>
+
+namespace lacuna {
+
+/// Settings of a simulation; they nest those of its parts. SI units.
+template <class Model>
+struct simulation_parameters {
+    static constexpr int dim = Model::dim;
+    using material = material_of<typename Model::contact_law, typename Model::bond_law>;
+
+    std::vector<material> materials{material{}};    ///< a particle's material number counts these
+    double thickness = 1;                           ///< out of plane, m; 2D only
+    mass_model mass = dim == 2 ? mass_model::disc : mass_model::sphere;
+    vec<double, dim> gravity{};                     ///< m/s^2
+    interaction_parameters interactions{};
+    typename Model::damping::parameters damping{};
+    std::vector<wall<typename Model::contact_law, dim>> walls{};
+    typename Model::flow::parameters flow{};
+    double time_step = 0;                           ///< s; 0: safety times the critical time step
+    double safety = 0.2;                            ///< fraction of the critical time step
+    bool allow_unstable_step = false;               ///< run even with a time step above the bound
+    double start_time = 0;                          ///< s
+    int threads = 1;                                ///< takes effect in programs built with OpenMP
+
+    /// \throws std::invalid_argument naming the part, the field, the value and the rule.
+    void validate() const {
+        if (materials.empty()) refuse("materials.size()", 0.0, "at least 1");
+        for (std::size_t m = 0; m < materials.size(); ++m) materials[m].validate("materials[" + std::to_string(m) + "]");
+        require_positive("thickness", thickness);
+        for (int axis = 0; axis < dim; ++axis) require_finite("gravity", gravity[axis]);
+        interactions.validate("interactions");
+        damping.validate("damping");
+        for (std::size_t w = 0; w < walls.size(); ++w) walls[w].validate("walls[" + std::to_string(w) + "]");
+        flow.validate("flow");
+        require_not_negative("time_step", time_step);
+        require_positive("safety", safety);
+        require_finite("start_time", start_time);
+        require_in("threads", threads, 1, 1024);
+    }
+};
+
+/// The time step limits of a simulation in its present state, s.
+struct time_step_limits {
+    double equation_9 = 0;  ///< as the paper gives it: shortest distance over wave speed, from the stiffest light pair
+    double equation_19 = 0; ///< as the paper gives it, for the fluid; infinite without flow
+    double flow = 0;        ///< rigorous, for the fluid alone; infinite without flow
+    double rigorous = 0;    ///< rigorous, for particles with rotation and the stiffness of the fluid
+    /// What a step has to stay below.
+    double critical() const noexcept { return rigorous < flow ? rigorous : flow; }
+};
+
+/// A simulator, composed at compile time from the parts that Model names (see default_model).
+///
+/// A step reads: neighbours, interactions, pores, loads, motion. Forces are those of the positions at the
+/// beginning of the step; `time()` is the time of the positions.
+template <model Model>
+class simulation {
+public:
+    using model_type = Model;
+    using real = typename Model::real;
+    static constexpr int dim = Model::dim;
+    using point = vec<double, dim>;
+    using parameters = simulation_parameters<Model>;
+    using contact_law_type = typename Model::contact_law;
+    using bond_law_type = typename Model::bond_law;
+    using damping_type = typename Model::damping;
+    using flow_type = typename Model::flow;
+    using store_type = particle_store<real, dim>;
+    using interactions_type = lacuna::interactions<real, dim, contact_law_type, bond_law_type, damping_type,
+                                                   typename Model::template search<real, dim>>;
+    using event_type = break_event<dim>;
+
+    /// \throws std::invalid_argument for a bad packing or parameter
+    explicit simulation(packing<real, dim> const& packing, parameters const& p = {}) : parameters_(p) {
+        p.validate();
+        std::vector<double> density;
+        std::vector<typename contact_law_type::material> contact_materials;
+        for (auto const& m : p.materials) {
+            density.push_back(m.density);
+            contact_materials.push_back(m.contact);
+        }
+        auto const order = spatial_order(view_points(packing.position));
+        store_ = store_type(packing, order, density, p.mass, p.thickness);
+        for (std::size_t k = 0; k < store_.size(); ++k) set_load(k, {}, 0);
+        interactions_ = interactions_type(store_, packing.bonds, p.materials, p.thickness, p.interactions, p.damping);
+        walls_ = wall_contacts<contact_law_type, damping_type, real, dim>(p.walls, contact_materials, p.thickness);
+        smallest_radius_ = store_.size() ? *std::min_element(store_.radii().begin(), store_.radii().end()) : real(1);
+        update_walls();
+        if constexpr (flow_type::active) flow_ = flow_type(store_.positions(), store_.radii(), p.thickness, p.flow);
+        reports_.resize(std::size_t(interactions_.chunks()));
+        extra_.resize(store_.size() * pair_forces<real, dim>::records_per_pair);
+    }
+
+    /// \name The particles, by the number they have in the packing
+    /// \{
+    std::size_t size() const noexcept { return store_.size(); }
+    point position(std::size_t id) const { return widen(store_.position(internal(id))); }
+    point velocity(std::size_t id) const { return widen(store_.velocity(internal(id))); }
+    vec<double, rotation_dim<dim>> spin(std::size_t id) const { return widen(store_.spin(internal(id))); }
+    double radius(std::size_t id) const { return double(store_.radius(internal(id))); }
+    double mass(std::size_t id) const { return double(store_.mass(internal(id))); }
+    double moment_of_inertia(std::size_t id) const { return double(store_.moment_of_inertia(internal(id))); }
+    int material(std::size_t id) const { return store_.material(internal(id)); }
+    /// Eq. 8's unit vector in 2D, a unit quaternion {w, x, y, z} in 3D.
+    auto orientation(std::size_t id) const { return widen(store_.orientation(internal(id))); }
+
+    void set_velocity(std::size_t id, point const& v) { store_.set_velocity(internal(id), narrow(v)); }
+    void set_spin(std::size_t id, vec<double, rotation_dim<dim>> const& w) { store_.set_spin(internal(id), narrow(w)); }
+    /// Prescribes the motion along the given axes: there the particle keeps the velocity it has or is given.
+    void fix(std::size_t id, fixed_axes const& axes = fixed_axes::all()) { store_.fix(internal(id), axes); }
+    /// Applies a constant force, and in 2D a torque, on top of gravity; replaces the one applied before. N, N m.
+    void apply(std::size_t id, point const& force, double torque = 0) { set_load(internal(id), force, torque); }
+    /// \}
+
+    /// Advances by one step.
+    /// \throws unstable_run when the state is no longer meaningful; std::invalid_argument when the time step is
+    ///         above the bound
+    void step() { take_step<false>(); }
+
+    /// Advances by `steps` steps, or until an observer's on_step asks to stop.
+    /// \return the number of steps taken
+    /// \throws as step()
+    template <observer... Observers>
+    long long run(long long steps, Observers&&... observers) {
+        (detail::check_observer<simulation, event_type, Observers>(), ...);
+        constexpr bool energy = (detail::needs_energy<Observers> || ...);
+        require_stable_step();
+        (start(observers), ...);
+        long long taken = 0;
+        for (bool go_on = true; go_on && taken < steps; ++taken) {
+            take_step<energy>();
+            for (auto const& event : events_) (report(observers, event), ...);
+            (void)std::initializer_list<int>{((go_on = observe(observers) && go_on), 0)...};
+        }
+        (finish(observers), ...);
+        return taken;
+    }
+
+    long long steps() const noexcept { return step_; }
+    double time_step() const {
+        settle_time_step();
+        return *time_step_;
+    }
+    double time() const { return parameters_.start_time + double(step_) * time_step(); }
+    /// Failures of the last step.
+    std::span<event_type const> events() const noexcept { return events_; }
+    /// Kept while an observer with needs_energy is there, or step_with_energy() is used.
+    energy_ledger const& energy() const noexcept { return ledger_; }
+    /// As step(), and keeps the energy ledger.
+    void step_with_energy() { take_step<true>(); }
+
+    /// Kinetic energy of all particles with their present velocities, J.
+    double kinetic_energy() const {
+        double total = 0;
+        for (std::size_t k = 0; k < store_.size(); ++k)
+            total += 0.5 * double(store_.mass(k)) * double(squared_norm(store_.velocity(k))) +
+                     0.5 * double(store_.moment_of_inertia(k)) * double(squared_norm(store_.spin(k)));
+        return total;
+    }
+
+    /// Limits of the time step in the present state (MODEL.md section 6).
+    time_step_limits limits() const {
+        time_step_limits result;
+        frequency_bound<dim> bound(store_.size());
+        for (std::size_t k = 0; k < store_.size(); ++k)
+            for (int axis = 0; axis < frequency_bound<dim>::freedoms; ++axis)
+                bound.set_mobility(k, axis, double(store_.mobility(k, axis)));
+        double wave = std::numeric_limits<double>::infinity();
+        interactions_.for_each_stiffness(store_, [&](std::size_t i, std::size_t j, point const& normal, double kn,
+                                                     double ks, double prestress, double li, double lj) {
+            bound.add_pair(i, j, normal, kn, ks, prestress, li, lj);
+            wave = std::min(wave, std::sqrt(double(std::min(store_.mass(i), store_.mass(j))) / kn));
+        });
+        walls_.for_each_near(store_, [&](std::size_t k, point const& normal, auto const& law) {
+            add_wall(bound, k, normal, double(contact_law_type::stiffness(law)));
+        });
+        result.equation_9 = wave;
+        result.equation_19 = result.flow = std::numeric_limits<double>::infinity();
+        if constexpr (flow_type::active) {
+            flow_->for_each_stiffness(store_.positions(), store_.radii(),
+                                      [&](auto const& who, auto const& g, double k) { bound.add(who, g, k); });
+            result.equation_19 = double(flow_->equation_19_time_step());
+            result.flow = double(flow_->critical_time_step());
+        }
+        result.rigorous = bound.time_step();
+        return result;
+    }
+
+    store_type const& particles() const noexcept { return store_; }
+    interactions_type const& pairs() const noexcept { return interactions_; }
+    auto const& walls() const noexcept { return walls_; }
+    parameters const& settings() const noexcept { return parameters_; }
+    /// The pore network and its flow (models with flow).
+    auto const& flow() const
+        requires(flow_type::active)
+    {
+        return *flow_;
+    }
+    auto& flow()
+        requires(flow_type::active)
+    {
+        return *flow_;
+    }
+
+private:
+    template <bool WithEnergy>
+    void take_step() {
+        require_stable_step();
+        auto const dt = real(*time_step_);
+        if (interactions_.update(store_, moved_)) update_walls();
+        for (auto& r : reports_) r = {};
+
+        int const chunks = interactions_.chunks();
+        bool const further_forces = flow_type::active || !walls_.empty();
+        if (!further_forces && parameters_.threads == 1) {
+            // A particle's pairs belong to it and to lower-numbered ones: once the pairs of a chunk are evaluated,
+            // nothing reads its particles again, and they can move while they are in the cache.
+            for (int c = 0; c < chunks; ++c) {
+                interactions_.template evaluate<WithEnergy>(store_, c, dt);
+                move<WithEnergy>(c, dt, nullptr);
+            }
+        } else {
+            for_each_chunk(chunks, parameters_.threads,
+                           [&](int c) { interactions_.template evaluate<WithEnergy>(store_, c, dt); });
+            if (further_forces) add_further_forces(dt);
+            for_each_chunk(chunks, parameters_.threads,
+                           [&](int c) { move<WithEnergy>(c, dt, further_forces ? &extra_ : nullptr); });
+        }
+        collect_events();
+        check_motion(dt);
+        if constexpr (WithEnergy)
+            keep_ledger(double(dt));
+        else
+            ledger_open_ = false;
+        ++step_;
+    }
+
+    template <bool WithEnergy>
+    void move(int chunk, real dt, record_column<real> const* extra) {
+        std::size_t const first = std::size_t(chunk) * interactions_type::chunk_particles;
+        int const count = int(std::min(store_.size() - first, std::size_t(interactions_type::chunk_particles)));
+        Model::integrator::template advance<WithEnergy, damping_type>(store_, first, count, dt,
+                                                                      interactions_.forces_on(chunk), parameters_.damping,
+                                                                      extra, reports_[std::size_t(chunk)]);
+    }
+
+    void add_further_forces(real dt) {
+        std::fill(extra_.data(), extra_.data() + 4 * extra_.size(), real(0));
+        if (!walls_.empty()) {
+            auto const beyond = walls_.evaluate(store_, dt, parameters_.damping, extra_, wall_energy_);
+            if (beyond >= 0) throw_unstable(beyond, "its centre is beyond a wall", "the load or speed is too high for the stiffness of the wall");
+        }
+        if constexpr (flow_type::active) {
+            flow_->step(store_.positions(), store_.radii(), dt, [&](std::int32_t i, std::int32_t j) {
+                auto const slot = interactions_.find_slot(i, j);
+                auto const arm = store_.position(std::size_t(j)) - store_.position(std::size_t(i));
+                real const distance = norm(arm);
+                real const gap = distance - store_.radius(std::size_t(i)) - store_.radius(std::size_t(j));
+                real normal_force = 0;
+                if (slot >= 0)
+                    for (int axis = 0; axis < dim; ++axis)
+                        normal_force += interactions_.pair_force(std::size_t(slot))[axis] * arm[axis] / distance;
+                // The force in a record is the one on the lower-numbered particle.
+                return typename flow_type::pair_state{i < j ? normal_force : -normal_force, gap};
+            });
+            flow_->add_tractions(store_.positions(), store_.radii(), extra_.data());
+        }
+    }
+
+    void collect_events() {
+        auto const found = interactions_.collect_events();
+        events_.assign(found.begin(), found.end());
+        for (auto& e : events_) {
+            e.step = step_;
+            e.time = time();
+        }
+    }
+
+    void check_motion(real dt) {
+        record<real> fastest(real(0)), poison(real(0));
+        for (auto const& r : reports_) {
+            fastest = max(r.fastest, fastest);
+            poison += r.poison;
+        }
+        real squared = 0;
+        for (int axis = 0; axis < dim; ++axis) squared += fastest[axis] * fastest[axis];
+        moved_ = std::sqrt(squared) * dt;
+        if (!(poison[0] + poison[1] + poison[2] == real(0))) report_poison();
+        if (moved_ > smallest_radius_ / 10) report_fast(dt);
+        if (auto const k = interactions_.deep_overlap(); k >= 0)
+            throw_unstable(k, "it overlaps another particle by more than a radius",
+                           "the load is too high for the contact stiffness, or the time step too long");
+    }
+
+    void report_poison() const {
+        for (std::size_t k = 0; k < store_.size(); ++k) {
+            auto const v = store_.velocity(k);
+            for (int axis = 0; axis < dim; ++axis)
+                if (!std::isfinite(v[axis]))
+                    throw_unstable(std::int32_t(k), "its velocity is not a number",
+                                   "a load that is not a number, coinciding particles, or an unstable time step");
+        }
+        throw_unstable(-1, "a velocity is not a number", "an unstable time step");
+    }
+    void report_fast(real dt) const {
+        for (std::size_t k = 0; k < store_.size(); ++k) {
+            real const path = norm(store_.velocity(k)) * dt;
+            if (path > store_.radius(k) / 10)
+                throw_unstable(std::int32_t(k),
+                               "it moved " + to_text(double(path / store_.radius(k))) +
+                                   " of its radius in one step (limit 0.1)",
+                               "the time step is above the stable one, or a load is very large");
+        }
+    }
+    [[noreturn]] void throw_unstable(std::int32_t k, std::string const& what, std::string const& cause) const {
+        long long const id = k < 0 ? -1 : store_.id(std::size_t(k));
+        std::string text = "unstable run at step " + std::to_string(step_) + ", time " + to_text(time()) + " s: ";
+        if (k >= 0) {
+            text += "particle " + std::to_string(id) + " at (";
+            for (int axis = 0; axis < dim; ++axis)
+                text += (axis ? ", " : "") + to_text(double(store_.position(std::size_t(k))[axis]));
+            text += ") m: ";
+        }
+        throw unstable_run(text + what + "; likely cause: " + cause, step_, id);
+    }
+
+    void keep_ledger(double dt) {
+        auto const pairs = interactions_.energy();
+        motion_report<real> total;
+        for (auto const& r : reports_) {
+            total.kinetic += r.kinetic;
+            total.load_before += r.load_before;
+            total.load_after += r.load_after;
+            total.damping_before += r.damping_before;
+            total.damping_after += r.damping_after;
+        }
+        bool const first = !ledger_open_;
+        if (first) {
+            ledger_ = {};
+            work_ahead_ = damping_ahead_ = 0;
+            ledger_open_ = true;
+        }
+        ledger_.kinetic = total.kinetic;
+        ledger_.strain = pairs.stored + wall_energy_.stored;
+        if constexpr (flow_type::active) flow_->fill(ledger_, first);
+        if (first) {
+            ledger_.initial = ledger_.kinetic + ledger_.strain + ledger_.fluid_storage;
+        } else {
+            ledger_.friction += pairs.dissipated + wall_energy_.dissipated;
+            ledger_.damping += pairs.damped + wall_energy_.damped;
+            ledger_.fracture += interactions_.fracture_energy();
+            ledger_.external = work_ahead_ + 0.5 * dt * total.load_before;
+            ledger_.damping += damping_ahead_ - 0.5 * dt * total.damping_before;
+        }
+        work_ahead_ = ledger_.external + 0.5 * dt * total.load_after;
+        damping_ahead_ = -0.5 * dt * total.damping_after;
+    }
+
+    void set_load(std::size_t k, point const& force, double torque) {
+        point total = force;
+        for (int axis = 0; axis < dim; ++axis) {
+            require_finite("force on particle " + std::to_string(store_.id(k)), force[axis]);
+            total[axis] += double(store_.mass(k)) * parameters_.gravity[axis];
+        }
+        store_.set_applied_force(k, narrow(total));
+        if constexpr (dim == 2) store_.set_applied_torque(k, real(torque));
+    }
+
+    void update_walls() {
+        if (walls_.empty()) return;
+        double mean = 0;
+        for (real const r : store_.radii()) mean += double(r) / double(store_.size());
+        walls_.update(store_, real(parameters_.interactions.skin * mean));
+    }
+
+    static void add_wall(frequency_bound<dim>& bound, std::size_t k, point const& normal, double stiffness) {
+        (void)bound, (void)k, (void)normal, (void)stiffness;
+    }
+
+    void settle_time_step() const {
+        if (time_step_) return;
+        time_step_limits const found = limits();
+        double const critical = found.critical();
+        if (parameters_.time_step > 0) {
+            if (!parameters_.allow_unstable_step && !(parameters_.time_step <= critical))
+                refuse("time_step", parameters_.time_step,
+                       "at most the stable limit " + to_text(critical) + " s (" +
+                           (found.rigorous <= found.flow ? "particles with rotation and fluid stiffness"
+                                                         : "flow between the pores") +
+                           "; eq. 9 gives " + to_text(found.equation_9) + " s), or allow_unstable_step");
+            time_step_ = parameters_.time_step;
+        } else {
+            if (!std::isfinite(critical))
+                refuse("time_step", 0.0, "given: without any stiffness there is no critical time step");
+            time_step_ = parameters_.safety * critical;
+        }
+    }
+    void require_stable_step() const { settle_time_step(); }
+
+    template <class Observer>
+    void start(Observer& o) const {
+        if constexpr (has(Observer::stages, stage::start)) o.on_start(*this);
+    }
+    template <class Observer>
+    void report(Observer& o, event_type const& event) const {
+        if constexpr (has(Observer::stages, stage::breakage)) o.on_break(event, *this);
+    }
+    template <class Observer>
+    bool observe(Observer& o) const {
+        if constexpr (has(Observer::stages, stage::step)) {
+            if constexpr (std::is_void_v<decltype(o.on_step(*this))>)
+                o.on_step(*this);
+            else
+                return o.on_step(*this) != run_control::stop;
+        }
+        return true;
+    }
+    template <class Observer>
+    void finish(Observer& o) const {
+        if constexpr (has(Observer::stages, stage::end)) o.on_end(*this);
+    }
+
+    std::size_t internal(std::size_t id) const {
+        if (id >= store_.size()) refuse("particle", double(id), "below the number of particles, " + std::to_string(store_.size()));
+        return std::size_t(store_.internal(id));
+    }
+    template <int N>
+    static vec<double, N> widen(vec<real, N> const& a) {
+        vec<double, N> r{};
+        for (int k = 0; k < N; ++k) r[k] = double(a[k]);
+        return r;
+    }
+    template <int N>
+    static vec<real, N> narrow(vec<double, N> const& a) {
+        vec<real, N> r{};
+        for (int k = 0; k < N; ++k) r[k] = real(a[k]);
+        return r;
+    }
+
+    parameters parameters_;
+    store_type store_;
+    interactions_type interactions_;
+    wall_contacts<contact_law_type, damping_type, real, dim> walls_;
+    std::optional<flow_type> flow_;
+    pair_energy wall_energy_;
+    record_column<real> extra_;
+    std::vector<motion_report<real>> reports_;
+    std::vector<event_type> events_;
+    energy_ledger ledger_;
+    double work_ahead_ = 0, damping_ahead_ = 0;
+    bool ledger_open_ = false;
+    mutable std::optional<double> time_step_;
+    real moved_ = 0, smallest_radius_ = 1;
+    long long step_ = 0;
+};
+
+} // namespace lacuna
