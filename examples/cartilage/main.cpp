@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <stdexcept>
+
+#include <lacuna/core/error.hpp>
+#include <lacuna/observe/picture.hpp>
+
+#include "options.hpp"
+#include "output.hpp"
+#include "simulate.hpp"
+#include "specimen.hpp"
+
+namespace {
+
+enum exit_status { done = 0, failed = 1, bad_request = 2, unstable = 3, interrupted = 130 };
+
+extern "C" void on_signal(int) { cartilage::request_stop(); }
+
+void catch_signals() {
+    struct sigaction action {};
+    action.sa_handler = on_signal;
+    // The second signal meets the system's own handler: a run that does not stop can still be ended.
+    action.sa_flags = static_cast<int>(SA_RESETHAND);
+    sigaction(SIGINT, &action, nullptr);
+    sigaction(SIGTERM, &action, nullptr);
+}
+
+void say_where(cartilage::output_directory const& out, std::initializer_list<char const*> names) {
+    for (char const* name : names) std::printf("%s\n", out.file(name).c_str());
+}
+
+int pack(cartilage::options const& o) {
+    cartilage::output_directory out(o.out, o.force);
+    cartilage::specimen const specimen = cartilage::build_specimen(o);
+    cartilage::specimen_report const report = cartilage::report_of(specimen);
+    out.keep();
+    lacuna::save_packing(out.file("packing"), cartilage::scene_of(specimen, o));
+    cartilage::write_statistics(out.file("statistics.json"), o, report);
+    if (!o.quiet) cartilage::print_statistics(stdout, o, report);
+    if (!o.quiet) say_where(out, {"packing.png", "packing.svg", "statistics.json"});
+    return done;
+}
+
+int run(cartilage::options const& o) {
+    cartilage::output_directory out(o.out, o.force);
+    catch_signals();
+    cartilage::specimen const specimen = cartilage::build_specimen(o);
+    lacuna::scene damage;
+    cartilage::run_result const result = cartilage::simulate(specimen, o, out, o.quiet ? nullptr : stderr, damage);
+    lacuna::save_packing(out.file("packing"), cartilage::scene_of(specimen, o));
+    lacuna::save_damage(out.file("damage"), damage);
+    cartilage::write_cracks(out.file("cracks.csv"), result);
+    // Last, because its presence says that the run is finished.
+    cartilage::write_summary(out.file("summary.json"), o, result);
+    if (!o.quiet) {
+        cartilage::print_result(stdout, o, result);
+        say_where(out, {"packing.png", "packing.svg", "damage.png", "damage.svg", "cracks.csv", "summary.json"});
+    }
+    return result.interrupted ? interrupted : done;
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    try {
+        auto const options = cartilage::parse_command_line(argc, argv);
+        if (!options) return done;
+        return options->what == cartilage::command::run ? run(*options) : pack(*options);
+    } catch (cartilage::usage_error const& bad) {
+        std::fprintf(stderr, "cartilage: %s\n", bad.what());
+        return bad_request;
+    } catch (std::invalid_argument const& bad) {
+        std::fprintf(stderr, "cartilage: %s\n", bad.what());
+        return bad_request;
+    } catch (lacuna::unstable_run const& bad) {
+        std::fprintf(stderr, "cartilage: %s\n", bad.what());
+        return unstable;
+    } catch (std::exception const& bad) {
+        std::fprintf(stderr, "cartilage: %s\n", bad.what());
+        return failed;
+    }
+}

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+#include <lacuna/particles/cartilage_specimen_types.hpp>
+
+/// \file
+/// What a person asks of the program on its command line.
+
+namespace cartilage {
+
+/// A request that cannot be met; the message is one line, the exit status 2.
+class usage_error : public std::runtime_error {
+public:
+    using std::runtime_error::runtime_error;
+};
+
+enum class command { run, pack };
+
+/// The command line, checked, in the units of the command line.
+struct options {
+    command what = command::run;
+    lacuna::cartilage_zone zone = lacuna::cartilage_zone::surface;
+    lacuna::specimen_preset preset = lacuna::specimen_preset::literal;
+    double load_MPa = 0;
+    std::uint64_t seed = 1;
+    double length_um = 120;
+    double height_um = 300;
+    std::optional<double> duration_ns; ///< none: until quiet, 40 ns at most
+    int threads = 1;
+    bool dry = false;
+    std::string out;
+    long long picture_every = 0; ///< steps between two damage pictures on the way, 0: none
+    bool quiet = false;
+    bool force = false;
+
+    /// The specimen asked for, in SI units. \throws std::invalid_argument when it cannot be built
+    lacuna::cartilage_specimen_parameters specimen() const;
+};
+
+/// Reads the command line. Returns nothing when only help or the version was asked for, which is then on stdout.
+/// \throws usage_error for everything that is not understood or out of range
+std::optional<options> parse_command_line(int argc, char const* const* argv);
+
+} // namespace cartilage

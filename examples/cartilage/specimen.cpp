@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "specimen.hpp"
+
+#include <cstdio>
+
+#include <lacuna/particles/cartilage_specimen.hpp>
+
+namespace cartilage {
+
+specimen build_specimen(options const& o) { return lacuna::make_cartilage_specimen<double>(o.specimen()); }
+
+specimen_report report_of(specimen const& s) {
+    specimen_report r;
+    r.particles = s.discs.size();
+    r.bonded_particles = s.statistics.bonded;
+    r.fibres = s.fibres.size();
+    r.bonds = s.discs.bonds.size();
+    r.fixed = s.fixed.size();
+    r.loaded = s.loaded.size();
+    r.area_fraction = s.statistics.area_fraction;
+    r.mean_radius = s.statistics.mean_radius;
+    r.max_overlap = s.statistics.max_overlap;
+    r.mean_coordination = s.statistics.mean_coordination;
+    r.loose = s.statistics.loose;
+    return r;
+}
+
+lacuna::scene scene_of(specimen const& s, options const& o) {
+    using lacuna::scene;
+    scene picture;
+    picture.left = s.left;
+    picture.right = s.right;
+    picture.bottom = 0;
+    picture.top = s.height;
+    picture.particles.resize(s.discs.size());
+    for (std::size_t i = 0; i < s.discs.size(); ++i)
+        picture.particles[i] = {s.discs.position[i], s.discs.radius[i],
+                                s.fibre[i] >= 0 ? scene::particle_kind::fibre : scene::particle_kind::free};
+    for (auto const& bond : s.discs.bonds)
+        picture.bonds.push_back({s.discs.position[std::size_t(bond[0])], s.discs.position[std::size_t(bond[1])]});
+    for (auto i : s.loaded) picture.loads.push_back({s.discs.position[std::size_t(i)], {0, -1}});
+    picture.supports = {{{s.left, 0}, {s.right, 0}}};
+    picture.walls = {{{s.wall_left, s.height}, {s.wall_left, 0}}, {{s.wall_right, 0}, {s.wall_right, s.height}}};
+    if (o.zone == lacuna::cartilage_zone::whole)
+        picture.zones = {{0, s.deep_top, "deep"},
+                         {s.deep_top, s.middle_top, "middle"},
+                         {s.middle_top, s.height, "surface"}};
+
+    std::string name(lacuna::to_string(o.zone));
+    name[0] = char(name[0] - 'a' + 'A');
+    picture.title = (o.zone == lacuna::cartilage_zone::whole ? "Whole cartilage" : name + " zone");
+    if (o.what == command::run) {
+        picture.load_label = lacuna::to_text(o.load_MPa) + " MPa";
+        picture.title += ", " + picture.load_label;
+    }
+    picture.subtitle = "seed " + std::to_string(o.seed) + (o.dry ? ", dry" : "");
+    picture.captions = {std::to_string(s.discs.size()) + " particles", std::to_string(s.fibres.size()) + " fibres",
+                        std::to_string(s.discs.bonds.size()) + " bonds"};
+    return picture;
+}
+
+} // namespace cartilage
