@@ -11,6 +11,7 @@
 #include <lacuna/core/parallel.hpp>
 #include <lacuna/interactions/interactions.hpp>
 #include <lacuna/interactions/walls.hpp>
+#include <lacuna/loads/load_set.hpp>
 #include <lacuna/model.hpp>
 #include <lacuna/motion/stable_step.hpp>
 #include <lacuna/observe/energy_ledger.hpp>
@@ -98,7 +99,8 @@ public:
         }
         auto const order = spatial_order(view_points(packing.position));
         store_ = store_type(packing, order, density, p.mass, p.thickness);
-        for (std::size_t k = 0; k < store_.size(); ++k) set_load(k, {}, 0);
+        loads_ = load_set<real, dim>(p.gravity, store_.size());
+        loads_.apply_gravity(store_);
         interactions_ = interactions_type(store_, packing.bonds, p.materials, p.thickness, p.interactions, p.damping);
         walls_ = wall_contacts<contact_law_type, damping_type, real, dim>(p.walls, contact_materials, p.thickness);
         smallest_radius_ = store_.size() ? *std::min_element(store_.radii().begin(), store_.radii().end()) : real(1);
@@ -125,8 +127,11 @@ public:
     void set_spin(std::size_t id, vec<double, rotation_dim<dim>> const& w) { store_.set_spin(internal(id), narrow(w)); }
     /// Prescribes the motion along the given axes: there the particle keeps the velocity it has or is given.
     void fix(std::size_t id, fixed_axes const& axes = fixed_axes::all()) { store_.fix(internal(id), axes); }
-    /// Applies a constant force, and in 2D a torque, on top of gravity; replaces the one applied before. N, N m.
-    void apply(std::size_t id, point const& force, double torque = 0) { set_load(internal(id), force, torque); }
+    /// Applies a force, and in 2D a torque, on top of gravity; replaces the one applied before. N, N m.
+    /// \param ramp_time within which it rises linearly from zero, from now on, s; 0: at once
+    void apply(std::size_t id, point const& force, double torque = 0, double ramp_time = 0) {
+        loads_.set(store_, internal(id), force, torque, ramp_time, ramp_time > 0 ? time() : parameters_.start_time);
+    }
     /// \}
 
     /// Advances by one step.
@@ -188,8 +193,8 @@ public:
             bound.add_pair(i, j, normal, kn, ks, prestress, li, lj);
             wave = std::min(wave, std::sqrt(double(std::min(store_.mass(i), store_.mass(j))) / kn));
         });
-        walls_.for_each_near(store_, [&](std::size_t k, point const& normal, auto const& law) {
-            add_wall(bound, k, normal, double(contact_law_type::stiffness(law)));
+        walls_.for_each_stiffness(store_, [&](std::size_t k, point const& normal, double kn, double ks, double lever) {
+            bound.add_support(k, normal, kn, ks, lever);
         });
         result.equation_9 = wave;
         result.equation_19 = result.flow = std::numeric_limits<double>::infinity();
@@ -225,6 +230,7 @@ private:
         require_stable_step();
         auto const dt = real(*time_step_);
         if (interactions_.update(store_, moved_)) update_walls();
+        loads_.advance(store_, time());
         for (auto& r : reports_) r = {};
 
         int const chunks = interactions_.chunks();
@@ -373,25 +379,11 @@ private:
         damping_ahead_ = -0.5 * dt * total.damping_after;
     }
 
-    void set_load(std::size_t k, point const& force, double torque) {
-        point total = force;
-        for (int axis = 0; axis < dim; ++axis) {
-            require_finite("force on particle " + std::to_string(store_.id(k)), force[axis]);
-            total[axis] += double(store_.mass(k)) * parameters_.gravity[axis];
-        }
-        store_.set_applied_force(k, narrow(total));
-        if constexpr (dim == 2) store_.set_applied_torque(k, real(torque));
-    }
-
     void update_walls() {
         if (walls_.empty()) return;
         double mean = 0;
         for (real const r : store_.radii()) mean += double(r) / double(store_.size());
         walls_.update(store_, real(parameters_.interactions.skin * mean));
-    }
-
-    static void add_wall(frequency_bound<dim>& bound, std::size_t k, point const& normal, double stiffness) {
-        (void)bound, (void)k, (void)normal, (void)stiffness;
     }
 
     void settle_time_step() const {
@@ -458,6 +450,7 @@ private:
     store_type store_;
     interactions_type interactions_;
     wall_contacts<contact_law_type, damping_type, real, dim> walls_;
+    load_set<real, dim> loads_;
     std::optional<flow_type> flow_;
     pair_energy wall_energy_;
     record_column<real> extra_;

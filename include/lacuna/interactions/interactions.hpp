@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include <lacuna/core/dual.hpp>
 #include <lacuna/interactions/break_event.hpp>
-#include <lacuna/interactions/incidence.hpp>
+#include <lacuna/interactions/force_rows.hpp>
+#include <lacuna/interactions/law_stiffness.hpp>
 #include <lacuna/interactions/pair_loop.hpp>
 #include <lacuna/laws/damping.hpp>
 #include <lacuna/laws/no_contact.hpp>
@@ -163,9 +163,9 @@ public:
     /// Stiffnesses in N/m are the laws' own derivatives.
     template <class Visit>
     void for_each_stiffness(store_type const& store, Visit const& visit) const {
-        if constexpr (!is_absent<BondLaw>) visit_stiffness<BondLaw>(store, bonds_, bond_parameters_, 0, visit);
+        if constexpr (!is_absent<BondLaw>) visit_stiffness<BondLaw>(store, bonds_, bond_parameters_, 0, true, visit);
         if constexpr (!is_absent<ContactLaw>)
-            visit_stiffness<ContactLaw>(store, contacts_, contact_parameters_, bonds_.slots(), visit);
+            visit_stiffness<ContactLaw>(store, contacts_, contact_parameters_, bonds_.slots(), false, visit);
     }
 
     /// Slot of the pair (i, j), internal indices in any order: bonds first, then contacts; -1 if it is in neither.
@@ -197,8 +197,7 @@ private:
 
     template <class Law, class Table, class Visit>
     void visit_stiffness(store_type const& store, Table const& table, parameter_table<Law, Real> const& parameters,
-                         std::size_t first_slot, Visit const& visit) const {
-        using number = dual<double, 2>;
+                         std::size_t first_slot, bool bonded, Visit const& visit) const {
         for (std::size_t s = 0; s < table.slots(); ++s) {
             if (table.is_filler(s, store.size())) continue;
             auto const i = std::size_t(table.i()[s]), j = std::size_t(table.j()[s]);
@@ -206,26 +205,13 @@ private:
             for (int axis = 0; axis < Dim; ++axis)
                 arm[axis] = double(store.position(j)[axis]) - double(store.position(i)[axis]);
             double const distance = norm(arm), ri = double(store.radius(i)), rj = double(store.radius(j));
-            bool constexpr bond = std::is_same_v<Law, BondLaw>;
-            // A contact that is open now is read as if it just touched.
-            double const at = bond ? distance : std::min(distance, (ri + rj) * (1 - 1e-6));
-            pair_motion<number, Dim> m{};
-            m.distance = number::variable(at, 0);
-            m.radius_i = number(ri);
-            m.radius_j = number(rj);
-            m.slip[0] = number::variable(0, 1);
-            auto const p = convert_fields<number, Real, typename Law::template parameters<number>>(
-                parameters.row[std::size_t(table.parameter()[s])], [](Real x) { return number(double(x)); });
-            auto const state = Law::template initial<number, Dim>(number(bond ? at : ri + rj), number(ri + rj));
-            auto const answer = Law::evaluate(p, m, state);
-            double const coupling = std::max(std::fabs(answer.normal_force.derivative[1]),
-                                             std::fabs(answer.shear_force[0].derivative[0]));
+            auto const k = law_stiffness<Law, Dim>(parameters.row[std::size_t(table.parameter()[s])], distance, ri, rj,
+                                                   bonded);
             Real const* force = forces_.of(first_slot + s);
             double squared = 0;
             for (int axis = 0; axis < Dim; ++axis) squared += double(force[axis]) * double(force[axis]);
-            visit(i, j, arm / distance, std::fabs(answer.normal_force.derivative[0]) + coupling,
-                  std::fabs(answer.shear_force[0].derivative[1]) + coupling, std::sqrt(squared) / distance,
-                  distance * ri / (ri + rj), distance * rj / (ri + rj));
+            visit(i, j, arm / distance, k.normal, k.shear, std::sqrt(squared) / distance, distance * ri / (ri + rj),
+                  distance * rj / (ri + rj));
         }
     }
 
@@ -398,7 +384,7 @@ private:
     bond_table bonds_;
     contact_table contacts_;
     pair_forces<Real, Dim> forces_;
-    incidence<Real, Dim> rows_;
+    force_rows<Real, Dim> rows_;
     std::vector<bond_record> bond_records_;
     std::vector<bond_entry> bond_entries_;
     std::vector<contact_entry> old_contacts_, new_contacts_, broken_;

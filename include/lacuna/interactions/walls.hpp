@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <span>
 #include <string>
 #include <vector>
 
+#include <lacuna/interactions/law_stiffness.hpp>
 #include <lacuna/interactions/pair_loop.hpp>
 
 namespace lacuna {
@@ -115,12 +117,17 @@ public:
     /// Force of the particles on a wall in the last evaluation, N.
     vec<double, Dim> force(std::size_t w) const noexcept { return force_[w]; }
 
-    /// Calls visit(particle, normal, parameters) for each particle that may touch a wall.
+    /// Calls visit(particle, normal, normal_stiffness, shear_stiffness, lever) for each particle that may touch a
+    /// wall, as if it did.
     template <class Visit>
-    void for_each_near(particle_store<Real, Dim> const& store, Visit const& visit) const {
-        for (auto const& n : near_)
-            visit(n.particle, walls_[n.plane].normal,
-                  parameters_.row[n.plane * materials_ + std::size_t(store.material(n.particle))]);
+    void for_each_stiffness(particle_store<Real, Dim> const& store, Visit const& visit) const {
+        for (auto const& n : near_) {
+            double const r = double(store.radius(n.particle));
+            double const distance = double(height(store.position(n.particle), n.plane));
+            auto const k = law_stiffness<ContactLaw, Dim>(
+                parameters_.row[n.plane * materials_ + std::size_t(store.material(n.particle))], distance, r, 0.0, false);
+            visit(n.particle, walls_[n.plane].normal, k.normal, k.shear, std::max(distance, 0.0));
+        }
     }
 
 private:

@@ -35,34 +35,22 @@ public:
     /// centres, and a prestress stiffness (force over distance) across it, without lever arms. N/m, m.
     void add_pair(std::size_t i, std::size_t j, point const& normal, double normal_stiffness, double shear_stiffness,
                   double prestress, double lever_i, double lever_j) {
-        std::array<point, Dim> axes{};
-        axes[0] = normal;
-        if constexpr (Dim == 2) {
-            axes[1] = perpendicular(normal);
-        } else {
-            int const small = std::fabs(normal[0]) < 0.6 ? 0 : 1;
-            point e{};
-            e[small] = 1;
-            axes[1] = cross(normal, e) / norm(cross(normal, e));
-            axes[2] = cross(normal, axes[1]);
-        }
+        auto const axes = frame(normal);
         for (int a = 0; a < Dim; ++a) {
             std::array<std::size_t, 2> const who{i, j};
-            std::array<gradient, 2> g{};
-            for (int x = 0; x < Dim; ++x) g[0][x] = -(g[1][x] = axes[std::size_t(a)][x]);
-            if (a > 0) add(who, g, prestress);
-            auto const turn = [&](gradient& to, double lever) {
-                if constexpr (Dim == 2) {
-                    to[2] = a == 1 ? -lever : 0.0;
-                } else {
-                    point const t = cross(normal, axes[std::size_t(a)]);
-                    for (int x = 0; x < 3; ++x) to[3 + x] = -lever * t[x];
-                }
-            };
-            turn(g[0], lever_i);
-            turn(g[1], lever_j);
-            add(who, g, a == 0 ? normal_stiffness : shear_stiffness);
+            auto const& axis = axes[std::size_t(a)];
+            if (a > 0) add(who, std::array{gradient_of(-axis, normal, 0), gradient_of(axis, normal, 0)}, prestress);
+            add(who, std::array{gradient_of(-axis, normal, lever_i), gradient_of(axis, normal, -lever_j)},
+                a == 0 ? normal_stiffness : shear_stiffness);
         }
+    }
+
+    /// The same between a particle and something that does not move.
+    void add_support(std::size_t i, point const& normal, double normal_stiffness, double shear_stiffness, double lever) {
+        auto const axes = frame(normal);
+        for (int a = 0; a < Dim; ++a)
+            add(std::array{i}, std::array{gradient_of(-axes[std::size_t(a)], normal, lever)},
+                a == 0 ? normal_stiffness : shear_stiffness);
     }
 
     /// Energy 1/2 stiffness (sum over particles g . displacement)^2: a pore that resists a change of volume.
@@ -108,6 +96,33 @@ public:
     double time_step() const { return 2 / frequency(); }
 
 private:
+    /// The normal and the tangents.
+    static std::array<point, Dim> frame(point const& normal) {
+        std::array<point, Dim> axes{};
+        axes[0] = normal;
+        if constexpr (Dim == 2) {
+            axes[1] = perpendicular(normal);
+        } else {
+            point e{};
+            e[std::fabs(normal[0]) < 0.6 ? 0 : 1] = 1;
+            axes[1] = cross(normal, e) / norm(cross(normal, e));
+            axes[2] = cross(normal, axes[1]);
+        }
+        return axes;
+    }
+    /// Derivative of the displacement along `axis` of the contact point that sits at lever * normal from the centre.
+    static gradient gradient_of(point const& axis, point const& normal, double lever) {
+        gradient g{};
+        for (int x = 0; x < Dim; ++x) g[x] = axis[x];
+        if constexpr (Dim == 2) {
+            g[2] = lever * cross(normal, axis);
+        } else {
+            point const t = cross(normal, axis) * lever;
+            for (int x = 0; x < 3; ++x) g[3 + x] = t[x];
+        }
+        return g;
+    }
+
     std::vector<std::array<double, std::size_t(freedoms)>> root_mobility_;
     std::vector<std::array<double, std::size_t(freedoms* freedoms)>> block_; ///< rows of the diagonal blocks
     std::vector<std::array<double, std::size_t(2 * freedoms)>> beside_;      ///< per row: translations, rotations

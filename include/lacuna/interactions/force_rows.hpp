@@ -15,7 +15,7 @@ namespace lacuna {
 /// that the loop over them has no branch to guess. The order follows the pairs alone: sums have the same bits for
 /// any number of threads.
 template <class Real, int Dim>
-class incidence {
+class force_rows {
 public:
     static constexpr int chunk_particles = 128;
     static constexpr std::int32_t reals_per_pair = std::int32_t(4 * pair_forces<Real, Dim>::records_per_pair);
@@ -76,7 +76,7 @@ template <class Real, int Dim>
 class force_sum {
 public:
     using rec = record<Real>;
-    force_sum(incidence<Real, Dim> const& rows, Real const* forces, int chunk) noexcept
+    force_sum(force_rows<Real, Dim> const& rows, Real const* forces, int chunk) noexcept
         : forces_(forces), row_(rows.rows(chunk)), length_(rows.row_length(chunk)) {}
 
     /// 2D: {F_x, F_y, torque, 0} on particle number `k` of the chunk.

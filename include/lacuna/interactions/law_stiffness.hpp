@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include <lacuna/core/dual.hpp>
+#include <lacuna/core/fields.hpp>
+#include <lacuna/laws/pair_motion.hpp>
+
+namespace lacuna {
+
+/// Stiffness of a pair as a bound of the stable time step has to count with it, N/m.
+struct pair_stiffness {
+    double normal, shear;
+};
+
+/// Tangent of a law by its own dual-number derivatives, at the given distance and without slip.
+///
+/// A contact that is open is read as if it just touched, because it may close before the next look. Coupling
+/// between normal and shear enters both, which makes the diagonal pair an upper bound of the full tangent.
+/// \param bonded the pair was made at this distance, without force (a bond); else it touches at r_i + r_j
+template <class Law, int Dim, class Real>
+pair_stiffness law_stiffness(typename Law::template parameters<Real> const& parameters, double distance,
+                             double radius_i, double radius_j, bool bonded) {
+    using number = dual<double, 2>;
+    double const touching = radius_i + radius_j;
+    double const at = bonded ? distance : std::min(distance, touching * (1 - 1e-6));
+    pair_motion<number, Dim> motion{};
+    motion.distance = number::variable(at, 0);
+    motion.radius_i = number(radius_i);
+    motion.radius_j = number(radius_j);
+    motion.slip[0] = number::variable(0, 1);
+    auto const p = convert_fields<number, Real, typename Law::template parameters<number>>(
+        parameters, [](Real x) { return number(double(x)); });
+    auto const state = Law::template initial<number, Dim>(number(bonded ? at : touching), number(touching));
+    auto const answer = Law::evaluate(p, motion, state);
+    double const coupling =
+        std::max(std::fabs(answer.normal_force.derivative[1]), std::fabs(answer.shear_force[0].derivative[0]));
+    return {std::fabs(answer.normal_force.derivative[0]) + coupling,
+            std::fabs(answer.shear_force[0].derivative[1]) + coupling};
+}
+
+} // namespace lacuna

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include <lacuna/core/error.hpp>
+#include <lacuna/particles/store.hpp>
+
+namespace lacuna {
+
+/// Forces from outside: gravity, which is always there, and on single particles a force and (2D) a torque that
+/// rise linearly from zero within a ramp time, or are there at once.
+template <class Real, int Dim>
+class load_set {
+public:
+    using point = vec<double, Dim>;
+
+    load_set() = default;
+    explicit load_set(point const& gravity, std::size_t particles) : gravity_(gravity), load_(particles) {}
+
+    /// Replaces the load on one particle.
+    /// \param k internal index
+    /// \param force N
+    /// \param torque N m, 2D
+    /// \param ramp_time s, from `now` on; 0: at once
+    /// \throws std::invalid_argument naming the particle
+    void set(particle_store<Real, Dim>& store, std::size_t k, point const& force, double torque, double ramp_time,
+             double now) {
+        std::string const name = "load on particle " + std::to_string(store.id(k));
+        for (int axis = 0; axis < Dim; ++axis) require_finite(name + ".force", force[axis]);
+        require_finite(name + ".torque", torque);
+        require_not_negative(name + ".ramp_time", ramp_time);
+        load_[k] = {force, torque, now, ramp_time};
+        bool const listed = std::find(rising_.begin(), rising_.end(), k) != rising_.end();
+        if (ramp_time > 0 && !listed) rising_.push_back(k);
+        put(store, k, now);
+    }
+
+    /// Brings the loads that are still rising to their value at `time`.
+    void advance(particle_store<Real, Dim>& store, double time) {
+        if (rising_.empty()) return;
+        for (std::size_t const k : rising_) put(store, k, time);
+        std::erase_if(rising_, [&](std::size_t k) { return time >= load_[k].start + load_[k].ramp_time; });
+    }
+
+    /// Writes gravity to all particles.
+    void apply_gravity(particle_store<Real, Dim>& store) {
+        for (std::size_t k = 0; k < store.size(); ++k) put(store, k, 0);
+    }
+
+private:
+    struct one_load {
+        point force{};
+        double torque = 0, start = 0, ramp_time = 0;
+    };
+
+    void put(particle_store<Real, Dim>& store, std::size_t k, double time) const {
+        auto const& l = load_[k];
+        double const passed = time - l.start;
+        double const share = passed >= l.ramp_time ? 1.0 : passed > 0 ? passed / l.ramp_time : 0.0;
+        vec<Real, Dim> total{};
+        for (int axis = 0; axis < Dim; ++axis)
+            total[axis] = Real(share * l.force[axis] + double(store.mass(k)) * gravity_[axis]);
+        store.set_applied_force(k, total);
+        if constexpr (Dim == 2) store.set_applied_torque(k, Real(share * l.torque));
+    }
+
+    point gravity_{};
+    std::vector<one_load> load_;
+    std::vector<std::size_t> rising_;
+};
+
+} // namespace lacuna
