@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <lacuna/core/vec.hpp>
+#include <lacuna/particles/packing_grid.hpp>
+
+namespace lacuna {
+
+/// Particles before they become a simulation: where they are, how large, of which material, which pairs are
+/// bonded. All lengths in m. `position`, `radius` and `material` have one entry per particle.
+template <class Real, int Dim>
+struct packing {
+    std::vector<vec<Real, Dim>> position;
+    std::vector<Real> radius;
+    std::vector<int> material;
+    std::vector<std::array<std::int32_t, 2>> bonds; ///< pairs of particle numbers, each pair once
+
+    std::size_t size() const noexcept { return position.size(); }
+
+    /// Appends a particle and returns its number.
+    std::int32_t add(vec<Real, Dim> const& x, Real r, int m = 0) {
+        position.push_back(x);
+        radius.push_back(r);
+        material.push_back(m);
+        return std::int32_t(position.size() - 1);
+    }
+};
+
+/// The same packing in another scalar type.
+template <class Real, class From, int Dim>
+packing<Real, Dim> convert_packing(packing<From, Dim> const& from) {
+    packing<Real, Dim> to;
+    for (std::size_t i = 0; i < from.size(); ++i) {
+        vec<Real, Dim> x{};
+        for (int axis = 0; axis < Dim; ++axis) x[axis] = Real(from.position[i][axis]);
+        to.add(x, Real(from.radius[i]), from.material[i]);
+    }
+    to.bonds = from.bonds;
+    return to;
+}
+
+/// What can be said of a packing of discs at a glance.
+struct packing_statistics {
+    std::size_t particles = 0;
+    std::size_t bonded = 0;        ///< particles with at least one bond
+    std::size_t bonds = 0;
+    double area_fraction = 0;      ///< sum of disc areas over the area given, 1
+    double mean_radius = 0;        ///< m
+    double max_overlap = 0;        ///< largest overlap of a pair over the smaller radius of the pair, 1
+    double mean_coordination = 0;  ///< mean number of neighbours with gap <= tolerance * smaller radius
+    std::size_t loose = 0;         ///< particles with fewer than two such neighbours
+};
+
+/// Measures a packing of discs.
+/// \param discs the packing, m
+/// \param area the area that the discs share, m^2; 0 leaves the area fraction at 0
+/// \param contact_tolerance largest gap, relative to the smaller radius, that still counts as touching
+template <class Real>
+packing_statistics measure_packing(packing<Real, 2> const& discs, double area, double contact_tolerance) {
+    packing_statistics s;
+    s.particles = discs.size();
+    s.bonds = discs.bonds.size();
+    if (discs.size() == 0) return s;
+    std::vector<char> bonded(discs.size(), 0);
+    for (auto const& bond : discs.bonds) bonded[std::size_t(bond[0])] = bonded[std::size_t(bond[1])] = 1;
+    std::vector<vec<double, 2>> x(discs.size());
+    double largest = 0, disc_area = 0;
+    for (std::size_t i = 0; i < discs.size(); ++i) {
+        double const r = double(discs.radius[i]);
+        x[i] = {double(discs.position[i][0]), double(discs.position[i][1])};
+        largest = r > largest ? r : largest;
+        s.mean_radius += r;
+        disc_area += 3.14159265358979323846 * r * r;
+        s.bonded += std::size_t(bonded[i]);
+    }
+    s.mean_radius /= double(discs.size());
+    if (area > 0) s.area_fraction = disc_area / area;
+
+    detail::disc_grid grid(x, 2 * largest);
+    std::size_t touching = 0;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        std::size_t here = 0;
+        double const r = double(discs.radius[i]);
+        grid.for_each_near(x[i], (2 + contact_tolerance) * largest, [&](std::size_t j) {
+            if (j == i) return;
+            double const other = double(discs.radius[j]);
+            double const smaller = r < other ? r : other;
+            double const gap = (norm(x[j] - x[i]) - r - other) / smaller;
+            if (-gap > s.max_overlap) s.max_overlap = -gap;
+            if (gap <= contact_tolerance) ++here;
+        });
+        touching += here;
+        if (here < 2) ++s.loose;
+    }
+    s.mean_coordination = double(touching) / double(x.size());
+    return s;
+}
+
+} // namespace lacuna
