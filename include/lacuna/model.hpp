@@ -2,8 +2,7 @@
 #pragma once
 
 #include <concepts>
-#include <cstdint>
-#include <string>
+#include <type_traits>
 
 #include <lacuna/laws/brittle_spring_bond.hpp>
 #include <lacuna/laws/damping.hpp>
@@ -11,16 +10,9 @@
 #include <lacuna/laws/no_contact.hpp>
 #include <lacuna/motion/symplectic_euler.hpp>
 #include <lacuna/neighbors/cell_grid.hpp>
+#include <lacuna/pores/flow.hpp>
 
 namespace lacuna {
-
-/// No fluid.
-struct no_flow {
-    static constexpr bool active = false;
-    struct parameters {
-        void validate(std::string const&) const {}
-    };
-};
 
 /// The parts of a simulator that a model does not name itself. A model starts from it and overrides by name:
 /// \code
@@ -41,13 +33,11 @@ struct default_model {
     using search = cell_grid<R, D>;
 };
 
-/// A fluid in the pores: no_flow, or a policy as explicit_flow.
-template <class F>
-concept flow_policy = requires(typename F::parameters const& p) {
-    { F::active } -> std::convertible_to<bool>;
-    p.validate("flow");
-};
+/// Whether a model has a fluid.
+template <class M>
+inline constexpr bool has_fluid = !std::is_same_v<typename M::flow, no_flow>;
 
+/// A complete set of parts, each of the kind its slot asks for.
 template <class M>
 concept model = requires {
     requires M::dim == 2 || M::dim == 3;

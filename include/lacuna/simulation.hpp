@@ -82,7 +82,8 @@ public:
     using contact_law_type = typename Model::contact_law;
     using bond_law_type = typename Model::bond_law;
     using damping_type = typename Model::damping;
-    using flow_type = typename Model::flow;
+    using flow_type = typename Model::flow::template solver<typename Model::real, Model::dim>;
+    using network_type = pore_network<typename Model::real, Model::dim>;
     using store_type = particle_store<real, dim>;
     using interactions_type = lacuna::interactions<real, dim, contact_law_type, bond_law_type, damping_type,
                                                    typename Model::template search<real, dim>>;
@@ -105,7 +106,6 @@ public:
         walls_ = wall_contacts<contact_law_type, damping_type, real, dim>(p.walls, contact_materials, p.thickness);
         smallest_radius_ = store_.size() ? *std::min_element(store_.radii().begin(), store_.radii().end()) : real(1);
         update_walls();
-        if constexpr (flow_type::active) flow_ = flow_type(store_.positions(), store_.radii(), p.thickness, p.flow);
         reports_.resize(std::size_t(interactions_.chunks()));
         extra_.resize(store_.size() * pair_forces<real, dim>::records_per_pair);
     }
@@ -134,6 +134,20 @@ public:
     }
     /// \}
 
+    /// Fills the pores with fluid (models with flow; before the first step).
+    /// \param make callable (points_view positions, Real const* radii) -> pore_network, in the simulation's own
+    ///        numbering of particles; see triangulate_body() and make_pore_network()
+    /// \throws std::invalid_argument for flow parameters out of range
+    template <class Make>
+    void fill_pores(Make const& make)
+        requires(has_fluid<Model>)
+    {
+        auto flow = parameters_.flow;
+        flow.thickness = parameters_.thickness;
+        flow_.emplace(flow, make(store_.positions(), store_.radii().data()), store_.positions(), store_.radii().data());
+        time_step_.reset();
+    }
+
     /// Advances by one step.
     /// \throws unstable_run when the state is no longer meaningful; std::invalid_argument when the time step is
     ///         above the bound
@@ -146,7 +160,9 @@ public:
     long long run(long long steps, Observers&&... observers) {
         (detail::check_observer<simulation, event_type, Observers>(), ...);
         constexpr bool energy = (detail::needs_energy<Observers> || ...);
-        require_stable_step();
+        planned_steps_ = steps;
+        if (step_ == 0) time_step_.reset();
+        settle_time_step();
         (start(observers), ...);
         long long taken = 0;
         for (bool go_on = true; go_on && taken < steps; ++taken) {
@@ -198,12 +214,12 @@ public:
         });
         result.equation_9 = wave;
         result.equation_19 = result.flow = std::numeric_limits<double>::infinity();
-        if constexpr (flow_type::active) {
-            flow_->for_each_stiffness(store_.positions(), store_.radii(),
-                                      [&](auto const& who, auto const& g, double k) { bound.add(who, g, k); });
-            result.equation_19 = double(flow_->equation_19_time_step());
-            result.flow = double(flow_->critical_time_step());
-        }
+        if constexpr (has_fluid<Model>)
+            if (flow_) {
+                add_fluid_stiffness(bound);
+                result.equation_19 = double(flow_->equation_19_time_step());
+                result.flow = double(flow_->critical_time_step());
+            }
         result.rigorous = bound.time_step();
         return result;
     }
@@ -214,27 +230,26 @@ public:
     parameters const& settings() const noexcept { return parameters_; }
     /// The pore network and its flow (models with flow).
     auto const& flow() const
-        requires(flow_type::active)
+        requires(has_fluid<Model>)
     {
         return *flow_;
     }
-    auto& flow()
-        requires(flow_type::active)
-    {
-        return *flow_;
-    }
+    bool filled() const noexcept { return flow_.has_value(); }
 
 private:
     template <bool WithEnergy>
     void take_step() {
-        require_stable_step();
+        settle_time_step();
         auto const dt = real(*time_step_);
-        if (interactions_.update(store_, moved_)) update_walls();
+        if (interactions_.update(store_, moved_)) {
+            update_walls();
+            skip_idle_throats();
+        }
         loads_.advance(store_, time());
         for (auto& r : reports_) r = {};
 
         int const chunks = interactions_.chunks();
-        bool const further_forces = flow_type::active || !walls_.empty();
+        bool const further_forces = flow_.has_value() || !walls_.empty();
         if (!further_forces && parameters_.threads == 1) {
             // A particle's pairs belong to it and to lower-numbered ones: once the pairs of a chunk are evaluated,
             // nothing reads its particles again, and they can move while they are in the cache.
@@ -273,20 +288,52 @@ private:
             auto const beyond = walls_.evaluate(store_, dt, parameters_.damping, extra_, wall_energy_);
             if (beyond >= 0) throw_unstable(beyond, "its centre is beyond a wall", "the load or speed is too high for the stiffness of the wall");
         }
-        if constexpr (flow_type::active) {
-            flow_->step(store_.positions(), store_.radii(), dt, [&](std::int32_t i, std::int32_t j) {
-                auto const slot = interactions_.find_slot(i, j);
-                auto const arm = store_.position(std::size_t(j)) - store_.position(std::size_t(i));
-                real const distance = norm(arm);
-                real const gap = distance - store_.radius(std::size_t(i)) - store_.radius(std::size_t(j));
-                real normal_force = 0;
-                if (slot >= 0)
-                    for (int axis = 0; axis < dim; ++axis)
-                        normal_force += interactions_.pair_force(std::size_t(slot))[axis] * arm[axis] / distance;
-                // The force in a record is the one on the lower-numbered particle.
-                return typename flow_type::pair_state{i < j ? normal_force : -normal_force, gap};
-            });
-            flow_->add_tractions(store_.positions(), store_.radii(), extra_.data());
+        if constexpr (has_fluid<Model>)
+            if (flow_) {
+                auto const points = store_.positions();
+                auto const* radii = store_.radii().data();
+                flow_->refresh_geometry(points, radii);
+                flow_->refresh_apertures([this](std::int32_t i, std::int32_t j) { return throat_at(i, j); });
+                flow_->advance(dt);
+                flow_->add_tractions(points, radii, extra_.data(), 4);
+            }
+    }
+
+    /// What the pair at a throat does, from its force in this step.
+    throat_state<real> throat_at(std::int32_t i, std::int32_t j) const {
+        auto const slot = interactions_.find_slot(i, j);
+        auto const arm = store_.position(std::size_t(j)) - store_.position(std::size_t(i));
+        real const distance = norm(arm);
+        real along = 0;
+        if (slot >= 0)
+            for (int axis = 0; axis < dim; ++axis)
+                along += interactions_.pair_force(std::size_t(slot))[axis] * arm[axis] / distance;
+        // The force in a pair's record acts on its lower-numbered particle.
+        return {i < j ? along : -along, distance - store_.radius(std::size_t(i)) - store_.radius(std::size_t(j))};
+    }
+
+    /// Throats are left out for the run that was announced; ones that open within it are taken up again here.
+    void skip_idle_throats() const {
+        if constexpr (has_fluid<Model>) {
+            if (!flow_ || planned_steps_ <= 0 || !time_step_) return;
+            flow_->refresh_apertures([this](std::int32_t i, std::int32_t j) { return throat_at(i, j); }, true);
+            flow_->skip_idle_throats(real(double(planned_steps_) * *time_step_));
+        }
+    }
+
+    void add_fluid_stiffness(frequency_bound<dim>& bound) const {
+        auto const& net = flow_->network();
+        double const modulus = flow_->settings().bulk_modulus;
+        for (std::size_t p = 0; p < net.pores(); ++p) {
+            auto const tractions = flow_->pore_tractions(p, store_.positions(), store_.radii().data());
+            std::array<std::size_t, std::size_t(dim) + 1> who{};
+            std::array<typename frequency_bound<dim>::gradient, std::size_t(dim) + 1> g{};
+            for (std::size_t c = 0; c < who.size(); ++c) {
+                who[c] = std::size_t(net.corner[c][p]);
+                for (int axis = 0; axis < dim; ++axis) g[c][axis] = double(tractions[c].force[axis]);
+                g[c][dim] = double(tractions[c].torque);
+            }
+            bound.add(who, g, modulus / double(net.volume[p]));
         }
     }
 
@@ -365,7 +412,8 @@ private:
         }
         ledger_.kinetic = total.kinetic;
         ledger_.strain = pairs.stored + wall_energy_.stored;
-        if constexpr (flow_type::active) flow_->fill(ledger_, first);
+        if constexpr (has_fluid<Model>)
+            if (flow_) keep_fluid_ledger(first);
         if (first) {
             ledger_.initial = ledger_.kinetic + ledger_.strain + ledger_.fluid_storage;
         } else {
@@ -379,6 +427,16 @@ private:
         damping_ahead_ = -0.5 * dt * total.damping_after;
     }
 
+    void keep_fluid_ledger(bool first) {
+        auto const& now = flow_->ledger();
+        if (first) fluid_start_ = now;
+        ledger_.fluid_storage = double(flow_->storage_energy());
+        ledger_.fluid_viscous = double(now.dissipation - fluid_start_.dissipation);
+        ledger_.fluid_outflow = -double(now.reservoir_work - fluid_start_.reservoir_work) -
+                                double(now.vapour_work - fluid_start_.vapour_work) -
+                                double(now.prefactor_work - fluid_start_.prefactor_work);
+    }
+
     void update_walls() {
         if (walls_.empty()) return;
         double mean = 0;
@@ -386,25 +444,31 @@ private:
         walls_.update(store_, real(parameters_.interactions.skin * mean));
     }
 
+    /// Fixes the time step on first use: the one asked for, if it is stable, or a share of the critical one.
     void settle_time_step() const {
         if (time_step_) return;
-        time_step_limits const found = limits();
-        double const critical = found.critical();
-        if (parameters_.time_step > 0) {
-            if (!parameters_.allow_unstable_step && !(parameters_.time_step <= critical))
-                refuse("time_step", parameters_.time_step,
-                       "at most the stable limit " + to_text(critical) + " s (" +
-                           (found.rigorous <= found.flow ? "particles with rotation and fluid stiffness"
-                                                         : "flow between the pores") +
-                           "; eq. 9 gives " + to_text(found.equation_9) + " s), or allow_unstable_step");
-            time_step_ = parameters_.time_step;
-        } else {
-            if (!std::isfinite(critical))
-                refuse("time_step", 0.0, "given: without any stiffness there is no critical time step");
-            time_step_ = parameters_.safety * critical;
+        if constexpr (has_fluid<Model>)
+            if (!flow_) throw std::logic_error("simulation: the model has a fluid but fill_pores() was not called");
+        time_step_limits found = limits();
+        bool const given = parameters_.time_step > 0;
+        if (planned_steps_ > 0 && std::isfinite(found.rigorous)) {
+            // Which throats matter depends on the length of the run, and that on the step of the particles.
+            time_step_ = given ? parameters_.time_step : parameters_.safety * found.rigorous;
+            skip_idle_throats();
+            time_step_.reset();
+            found = limits();
         }
+        double const critical = found.critical();
+        if (given && !parameters_.allow_unstable_step && !(parameters_.time_step <= critical))
+            refuse("time_step", parameters_.time_step,
+                   "at most the stable limit " + to_text(critical) + " s (of " +
+                       (found.rigorous <= found.flow ? "the particles, with rotation and fluid stiffness"
+                                                     : "the flow between pores") +
+                       "; eq. 9 gives " + to_text(found.equation_9) + " s), or allow_unstable_step");
+        if (!given && !std::isfinite(critical))
+            refuse("time_step", 0.0, "given: without any stiffness there is no critical time step");
+        time_step_ = given ? parameters_.time_step : parameters_.safety * critical;
     }
-    void require_stable_step() const { settle_time_step(); }
 
     template <class Observer>
     void start(Observer& o) const {
@@ -451,7 +515,8 @@ private:
     interactions_type interactions_;
     wall_contacts<contact_law_type, damping_type, real, dim> walls_;
     load_set<real, dim> loads_;
-    std::optional<flow_type> flow_;
+    mutable std::optional<flow_type> flow_; // mutable: which throats are left out is settled with the time step
+    flow_ledger<real> fluid_start_;
     pair_energy wall_energy_;
     record_column<real> extra_;
     std::vector<motion_report<real>> reports_;
@@ -461,7 +526,7 @@ private:
     bool ledger_open_ = false;
     mutable std::optional<double> time_step_;
     real moved_ = 0, smallest_radius_ = 1;
-    long long step_ = 0;
+    long long step_ = 0, planned_steps_ = 0;
 };
 
 } // namespace lacuna

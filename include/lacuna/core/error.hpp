@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -31,7 +32,7 @@ inline std::string to_text(double value) {
     char buffer[32];
     for (int digits = 6; digits <= 17; ++digits) {
         std::snprintf(buffer, sizeof buffer, "%.*g", digits, value);
-        if (std::isnan(value) || std::stod(buffer) == value) break;
+        if (std::isnan(value) || std::strtod(buffer, nullptr) == value) break;
     }
     return buffer;
 }
