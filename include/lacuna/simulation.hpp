@@ -330,8 +330,7 @@ private:
             std::array<typename frequency_bound<dim>::gradient, std::size_t(dim) + 1> g{};
             for (std::size_t c = 0; c < who.size(); ++c) {
                 who[c] = std::size_t(net.corner[c][p]);
-                for (int axis = 0; axis < dim; ++axis) g[c][axis] = double(tractions[c].force[axis]);
-                g[c][dim] = double(tractions[c].torque);
+                for (int axis = 0; axis < dim; ++axis) g[c][axis] = double(tractions[c][axis]);
             }
             bound.add(who, g, modulus / double(net.volume[p]));
         }

@@ -69,7 +69,7 @@ struct pack {
     native v;
 
     pack() = default;
-    pack(native x) noexcept : v(x) {} // NOLINT: the register type is the pack
+    pack(native const& x) noexcept : v(x) {} // NOLINT: the register type is the pack
     pack(T x) noexcept {              // NOLINT: a plain number is the same in all lanes
         v = native{} + x;
     }

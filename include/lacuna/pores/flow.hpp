@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <string>
+
+#include <lacuna/core/points.hpp>
+#include <lacuna/pores/pore_network.hpp>
+
+namespace lacuna {
+
+/// What the pair at a throat does: sets the throat's aperture.
+template <class Real>
+struct throat_state {
+    Real normal_force; ///< N, positive in tension; 0 where there is neither contact nor bond
+    Real gap;          ///< distance - r_i - r_j, m
+};
+
+/// Running totals of a flow solver, and the balance of its last step. With E = flow.storage_energy() every step keeps
+///
+///   E_new - E_old = reservoir_work - dissipation - pressure_work + vapour_work + prefactor_work   (their increments)
+template <class Real>
+struct flow_ledger {
+    Real dissipation = 0;     ///< lost to friction in the throats, J
+    Real reservoir_work = 0;  ///< done by reservoirs on the fluid, J
+    Real pressure_work = 0;   ///< sum of p dV: done by the fluid on the solid, J
+    Real vapour_work = 0;     ///< sum of p dW, W the vapour volume, J
+    Real prefactor_work = 0;  ///< sum of p^2 dV / 2 K_f: the stored energy's volume changes, second order, J
+    Real boundary_inflow = 0; ///< volume that has come in from reservoirs, m^3
+    Real gross_volume = 0;    ///< sum of |q dt| and |dV| in the last step, m^3: the scale of mass_residual
+    /// Last step: sum of (V dp / K_f + dV - dW) over the pores, less the inflow from reservoirs, m^3; rounding only.
+    Real mass_residual = 0;
+};
+
+namespace detail {
+struct any_throat_lookup {
+    throat_state<double> operator()(std::int32_t, std::int32_t) const { return {0, 0}; }
+};
+} // namespace detail
+
+/// A flow solver of a model, the slot filled by explicit_flow and no_flow:
+///   - `parameters`: an aggregate with defaults and `validate(std::string const& name)`;
+///   - `solver<Real, Dim>`: made from (parameters, network, points, radii), with the steps below, called in this
+///     order once per flow step, none of which allocates memory.
+template <class Policy>
+concept flow_policy = requires(typename Policy::parameters const& parameters,
+                               typename Policy::template solver<double, 2>& solver,
+                               typename Policy::template solver<double, 2> const& view,
+                               points_view<double, 2> points, double const* radii, double* force) {
+    parameters.validate("flow");
+    solver.refresh_geometry(points, radii);
+    solver.refresh_apertures(detail::any_throat_lookup{});
+    solver.advance(1.0);
+    view.add_tractions(points, radii, force, std::size_t(4));
+    { view.critical_time_step() } -> std::convertible_to<double>;
+    { view.equation_19_time_step() } -> std::convertible_to<double>;
+    { view.storage_energy() } -> std::convertible_to<double>;
+    { view.ledger() } -> std::convertible_to<flow_ledger<double>>;
+    { view.network() } -> std::convertible_to<pore_network<double, 2> const&>;
+    { solver.skip_idle_throats(1.0) } -> std::convertible_to<std::size_t>;
+};
+
+/// No fluid: a dry body. Its network is empty and its steps do nothing.
+struct no_flow {
+    struct parameters {
+        void validate(std::string const&) const {}
+    };
+
+    template <class Real, int Dim>
+    class solver {
+    public:
+        solver() = default;
+        solver(parameters const&, pore_network<Real, Dim> const&, points_view<Real, Dim>, Real const*) {}
+        void refresh_geometry(points_view<Real, Dim>, Real const*) noexcept {}
+        template <class Lookup>
+        void refresh_apertures(Lookup const&, bool = false) noexcept {}
+        void advance(Real) noexcept {}
+        void add_tractions(points_view<Real, Dim>, Real const*, Real*, std::size_t) const noexcept {}
+        Real critical_time_step() const noexcept { return std::numeric_limits<Real>::infinity(); }
+        Real equation_19_time_step() const noexcept { return std::numeric_limits<Real>::infinity(); }
+        Real storage_energy() const noexcept { return Real(0); }
+        flow_ledger<Real> const& ledger() const noexcept { return ledger_; }
+        pore_network<Real, Dim> const& network() const noexcept { return network_; }
+        std::size_t skip_idle_throats(Real) noexcept { return 0; }
+
+    private:
+        pore_network<Real, Dim> network_;
+        flow_ledger<Real> ledger_;
+    };
+};
+
+} // namespace lacuna

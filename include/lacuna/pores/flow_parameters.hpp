@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <limits>
+#include <string>
+
+#include <lacuna/core/error.hpp>
+#include <lacuna/laws/aperture.hpp>
+
+namespace lacuna {
+
+/// Parameters of the fluid and its throats; Table 1 of the paper where it gives a value.
+template <aperture_law Aperture>
+struct flow_parameters {
+    double bulk_modulus = 2.2e9; ///< K_f of the fluid, Pa; > 0
+    double conductivity = 1e-9;  ///< k of eq. 14: C = k a^3 / l in m^3/(s Pa), so m/(s Pa); >= 0
+    double thickness = 3.5e-6;   ///< of the body, out of the plane, m; > 0
+    /// Least pore volume, as a share of the pore's triangle when the network was built; > 0, <= 1.
+    double minimum_volume_fraction = 1e-3;
+    double minimum_pressure = -std::numeric_limits<double>::infinity(); ///< the fluid tears below, Pa; <= 0
+    double initial_pressure = 0;                                        ///< Pa; >= minimum_pressure
+    double skip_ratio = 1e6; ///< see skip_idle_throats(); > 0, infinity to skip none
+    typename Aperture::parameters aperture{};
+
+    /// \throws std::invalid_argument naming field, value and rule.
+    void validate(std::string const& name) const {
+        require_positive(name + ".bulk_modulus", bulk_modulus);
+        require_not_negative(name + ".conductivity", conductivity);
+        require_positive(name + ".thickness", thickness);
+        if (!(minimum_volume_fraction > 0 && minimum_volume_fraction <= 1))
+            refuse(name + ".minimum_volume_fraction", minimum_volume_fraction, "> 0 and <= 1");
+        if (!(minimum_pressure <= 0)) refuse(name + ".minimum_pressure", minimum_pressure, "<= 0");
+        require_finite(name + ".initial_pressure", initial_pressure);
+        if (!(initial_pressure >= minimum_pressure))
+            refuse(name + ".initial_pressure", initial_pressure, ">= minimum_pressure");
+        if (!(skip_ratio > 0)) refuse(name + ".skip_ratio", skip_ratio, "> 0");
+        aperture.validate(name + ".aperture");
+    }
+};
+
+} // namespace lacuna
