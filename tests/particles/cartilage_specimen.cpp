@@ -117,6 +117,22 @@ std::vector<char> reached_from_top(cartilage_specimen<double> const& s, double t
     return reached;
 }
 
+/// Radius of the largest disc that would fit between the others, to the raster of 0.4 um.
+double largest_hole(cartilage_specimen<double> const& s) {
+    double largest = 0;
+    for (double y = 0; y <= s.height; y += 0.4e-6)
+        for (double x = 0; x <= s.length; x += 0.4e-6) {
+            double room = std::min(std::min(x, s.length - x), std::min(y, s.height - y));
+            for (std::size_t j = 0; j < s.discs.size() && room > largest; ++j) {
+                double const dx = s.discs.position[j][0] - x, dy = s.discs.position[j][1] - y;
+                double const reach = room + s.discs.radius[j];
+                if (dx * dx + dy * dy < reach * reach) room = std::sqrt(dx * dx + dy * dy) - s.discs.radius[j];
+            }
+            largest = std::max(largest, room);
+        }
+    return largest;
+}
+
 int fibres_of(cartilage_specimen<double> const& s, cartilage_zone zone) {
     return int(std::count_if(s.fibres.begin(), s.fibres.end(), [&](auto const& f) { return f.zone == zone; }));
 }
@@ -156,6 +172,7 @@ TEST_CASE("every zone is dense, consistent and hands a push from top to bottom",
                 hanging += rests ? 0 : 1;
             }
             REQUIRE(hanging <= int(s.loaded.size()) * 2 / 5);
+            REQUIRE(largest_hole(s) < 1.05 * p.r_min);
             // Straight rows from side to side.
             for (auto const* row : {&s.fixed, &s.top})
                 for (auto i : *row)

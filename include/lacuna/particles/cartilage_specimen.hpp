@@ -38,10 +38,21 @@ inline void make_dense(disc_bed& bed, random_source& random, radius_range range,
         breathe(bed, relaxer, range, -1.0, 8, enough);
     }
     breathe(bed, relaxer, range, -1.0, 30, enough);
-    breathe(bed, relaxer, range, light, 20, 0.0, area);
-    if (fill_holes(bed, random, range, 0.93, area) > 0) relaxer.reset();
-    breathe(bed, relaxer, range, light, 30, 0.0, area);
-    settle(bed, relaxer, range, tolerance);
+    // What is still squeezed at the smallest radius has to go now: taken out by settle it would leave holes.
+    breathe(bed, relaxer, range, light, 15, 0.0, area);
+    for (int round = 0; round < 6 && remove_squeezed(bed, relaxer.pressure(), 12 * light) > 0; ++round) {
+        relaxer.reset();
+        breathe(bed, relaxer, range, light, 6, 0.0, area);
+        relaxer.forces();
+    }
+    relaxer.reset();
+    for (int round = 0; round < 5; ++round) {
+        std::size_t const came = fill_holes(bed, random, range, 0.92, area);
+        if (round > 0 && came == 0) break;
+        relaxer.reset();
+        breathe(bed, relaxer, range, light, round == 0 ? 20 : 10, 0.0, area);
+        settle(bed, relaxer, range, tolerance);
+    }
 }
 
 /// Fills what the rows and fibres of a specimen leave free.

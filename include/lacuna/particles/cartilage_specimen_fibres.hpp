@@ -176,7 +176,7 @@ private:
             disc_grid const grid(s_.discs.position, 2 * p_.r_max);
             line best{};
             double score = -1;
-            for (int candidate = 0; candidate < 8; ++candidate) {
+            for (int candidate = 0; candidate < 12; ++candidate) {
                 line l{{random_.uniform(0, p_.length), random_.uniform(low, high)}, {}};
                 double const angle = random_.uniform(0, pi);
                 l.along = {std::cos(angle), std::sin(angle)};
