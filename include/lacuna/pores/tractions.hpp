@@ -11,7 +11,8 @@
 namespace lacuna {
 
 /// Adds the forces of the pore pressures (eq. 16) on particles `begin` to `end` - 1: to force[i * stride + 0 and 1]
-/// the components of the force on particle i, N. Each particle sums over its throats in a fixed order, so that ranges give the same bits as all at once.
+/// the components of the force on particle i, N. Each particle sums over its throats in a fixed order, so that ranges
+/// give the same bits as all at once.
 /// \param net with particles, not bare; \param thickness m; \param points m; \param radii m
 template <class Real>
 void add_tractions(pore_network<Real, 2> const& net, Real thickness, points_view<Real, 2> points, Real const* radii,
