@@ -62,7 +62,7 @@ struct time_step_limits {
     double equation_9 = 0;  ///< as the paper gives it: shortest distance over wave speed, from the stiffest light pair
     double equation_19 = 0; ///< as the paper gives it, for the fluid; infinite without flow
     double flow = 0;        ///< rigorous, for the fluid alone; infinite without flow
-    double rigorous = 0;    ///< rigorous, for particles with rotation and the stiffness of the fluid
+    double rigorous = 0;    ///< rigorous, for particles with rotation, damping and the stiffness of the fluid
     /// What a step has to stay below.
     double critical() const noexcept { return rigorous < flow ? rigorous : flow; }
 };
@@ -199,18 +199,26 @@ public:
     /// Limits of the time step in the present state (MODEL.md section 6).
     time_step_limits limits() const {
         time_step_limits result;
-        frequency_bound<dim> bound(store_.size());
+        frequency_bound<dim> bound(store_.size()), dashpots(damping_type::acts_on_pairs ? store_.size() : 0);
         for (std::size_t k = 0; k < store_.size(); ++k)
-            for (int axis = 0; axis < frequency_bound<dim>::freedoms; ++axis)
+            for (int axis = 0; axis < frequency_bound<dim>::freedoms; ++axis) {
                 bound.set_mobility(k, axis, double(store_.mobility(k, axis)));
+                if constexpr (damping_type::acts_on_pairs)
+                    dashpots.set_mobility(k, axis, double(store_.mobility(k, axis)));
+            }
         double wave = std::numeric_limits<double>::infinity();
         interactions_.for_each_stiffness(store_, [&](std::size_t i, std::size_t j, point const& normal, double kn,
                                                      double ks, double prestress, double li, double lj) {
             bound.add_pair(i, j, normal, kn, ks, prestress, li, lj);
+            if constexpr (damping_type::acts_on_pairs)
+                dashpots.add_pair(i, j, normal, dashpot(kn, double(store_.mass(i)), double(store_.mass(j))), 0, 0, li, lj);
             wave = std::min(wave, std::sqrt(double(std::min(store_.mass(i), store_.mass(j))) / kn));
         });
         walls_.for_each_stiffness(store_, [&](std::size_t k, point const& normal, double kn, double ks, double lever) {
             bound.add_support(k, normal, kn, ks, lever);
+            if constexpr (damping_type::acts_on_pairs)
+                dashpots.add_support(k, normal, dashpot(kn, 2 * double(store_.mass(k)), 2 * double(store_.mass(k))), 0,
+                                     lever);
         });
         result.equation_9 = wave;
         result.equation_19 = result.flow = std::numeric_limits<double>::infinity();
@@ -220,7 +228,8 @@ public:
                 result.equation_19 = double(flow_->equation_19_time_step());
                 result.flow = double(flow_->critical_time_step());
             }
-        result.rigorous = bound.time_step();
+        double const against_motion = 1 + std::fabs(damping_type::particle_force(parameters_.damping, 1.0, -1.0));
+        result.rigorous = bound.time_step(dashpots, against_motion);
         return result;
     }
 
@@ -444,6 +453,11 @@ private:
     }
 
     /// Fixes the time step on first use: the one asked for, if it is stable, or a share of the critical one.
+    /// Coefficient of the damping of one pair, N s/m.
+    double dashpot(double stiffness, double mass_i, double mass_j) const {
+        return damping_type::pair_force(parameters_.damping, stiffness, mass_i, mass_j, 1.0);
+    }
+
     void settle_time_step() const {
         if (time_step_) return;
         if constexpr (has_fluid<Model>)
