@@ -89,6 +89,7 @@ output_directory::~output_directory() {
 }
 
 void output_directory::keep() {
+    if (kept_) return;
     kept_ = true;
     std::vector<fs::path> old;
     for (auto const& entry : fs::directory_iterator(path_))

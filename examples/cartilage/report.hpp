@@ -61,7 +61,7 @@ struct run_result {
     double time_step_limit = 0;   ///< s, the rigorous bound
     double end_time = 0;          ///< s
     double wall_seconds = 0;
-    std::string ended;            ///< "duration", "quiet" or "interrupted"
+    std::string ended;            ///< "duration", "limit", "quiet" or "interrupted"
     bool interrupted = false;
     std::vector<crack_record> cracks;
     std::vector<layer_result> layers;
