@@ -252,6 +252,21 @@ TEST_CASE("throats: length, conductance, order, sides") {
     }
 }
 
+TEST_CASE("a throat equally near to two sides of the body belongs to the one it faces") {
+    pore_mesh<2> mesh;
+    mesh.simplices = {{0, 1, 2}, {3, 4, 5}};
+    detail::connect(mesh);
+    std::vector<point> const x{{0, 0.5}, {2, 1.5}, {0, 4}, {4, 0}, {6, 0}, {5, 2}};
+    std::vector<double> const r(6, 0.2);
+    make_pore_network(mesh, view_points(x), r.data(), [](auto const& throat) -> throat_boundary<double> {
+        if (throat.particles[0] == 0) {
+            REQUIRE(throat.middle == point{1, 1});
+            REQUIRE(throat.side == body_side::bottom);
+        }
+        return {};
+    });
+}
+
 TEST_CASE("a body drains through the sides chosen, and through no other") {
     auto b = scattered(37, 6, 8, 0.6, 0.9);
     auto sealed = b.flow();
