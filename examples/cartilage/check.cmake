@@ -180,6 +180,11 @@ elseif(CASE STREQUAL "interrupted")
     expect("marked AND ended MATCHES ^interrupted$")
   endforeach()
 
+elseif(CASE STREQUAL "unstable")
+  call(3 run --zone surface --load 1e9 ${small} --duration 0.5 --quiet --out result)
+  expect("err MATCHES unstable.run AND err MATCHES particle")
+  files(".")
+
 else()
   message(FATAL_ERROR "no case '${CASE}'")
 endif()

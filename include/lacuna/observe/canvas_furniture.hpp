@@ -77,7 +77,7 @@ inline void draw_color_bar(canvas& page, rectangle const& box, color_scale const
     }
     page.add_rectangle(box);
     page.stroke(ink, 1);
-    std::vector<double> const ticks = nice_ticks(scale.low() / unit, scale.high() / unit, 7);
+    std::vector<double> const ticks = nice_ticks(scale.low() / unit, scale.high() / unit, 9);
     std::vector<std::string> const labels = tick_labels(ticks);
     for (std::size_t k = 0; k < ticks.size(); ++k) {
         double const y =
