@@ -151,11 +151,11 @@ void write_summary(std::string const& path, options const& o, run_result const& 
 void write_cracks(std::string const& path, run_result const& r) {
     std::string text = "step,time_s,bond,first,second,fibre,mode,x_m,y_m,normal_force_N,shear_force_N,energy_J\n";
     for (crack_record const& c : r.cracks) {
-        text += std::to_string(c.step) + "," + lacuna::to_text(c.time);
-        for (int number : {c.bond, c.first, c.second, c.fibre}) text += "," + std::to_string(number);
+        text.append(std::to_string(c.step)).append(1, ',').append(lacuna::to_text(c.time));
+        for (int number : {c.bond, c.first, c.second, c.fibre}) text.append(1, ',').append(std::to_string(number));
         text += c.shear ? ",shear" : ",tension";
         for (double v : {c.position[0], c.position[1], c.normal_force, c.shear_force, c.energy})
-            text += "," + lacuna::to_text(v);
+            text.append(1, ',').append(lacuna::to_text(v));
         text += "\n";
     }
     write_whole(path, text);
