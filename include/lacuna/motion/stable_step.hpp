@@ -24,7 +24,7 @@ public:
     static constexpr int turns = rotation_dim<Dim>;
     static constexpr int freedoms = Dim + turns;
     using point = vec<double, Dim>;
-    using gradient = vec<double, freedoms>;
+    using gradient = std::array<double, std::size_t(freedoms)>;
 
     explicit frequency_bound(std::size_t particles) : root_mobility_(particles), block_(particles), beside_(particles) {}
 
@@ -49,7 +49,7 @@ public:
     void add_support(std::size_t i, point const& normal, double normal_stiffness, double shear_stiffness, double lever) {
         auto const axes = frame(normal);
         for (int a = 0; a < Dim; ++a)
-            add(std::array{i}, std::array{gradient_of(-axes[std::size_t(a)], normal, lever)},
+            add(std::array{i}, std::array<gradient, 1>{gradient_of(-axes[std::size_t(a)], normal, lever)},
                 a == 0 ? normal_stiffness : shear_stiffness);
     }
 
@@ -58,13 +58,13 @@ public:
     void add(std::array<std::size_t, Count> const& who, std::array<gradient, Count> const& g, double stiffness) {
         for (std::size_t p = 0; p < Count; ++p)
             for (int a = 0; a < freedoms; ++a) {
-                double const ga = g[p][a] * root_mobility_[who[p]][a];
+                double const ga = g[p][std::size_t(a)] * root_mobility_[who[p]][a];
                 if (ga == 0) continue;
                 auto& own = block_[who[p]];
                 auto& beside = beside_[who[p]];
                 for (std::size_t q = 0; q < Count; ++q)
                     for (int b = 0; b < freedoms; ++b) {
-                        double const entry = stiffness * ga * g[q][b] * root_mobility_[who[q]][b];
+                        double const entry = stiffness * ga * g[q][std::size_t(b)] * root_mobility_[who[q]][b];
                         if (q == p)
                             own[std::size_t(a * freedoms + b)] += entry;
                         else
@@ -124,12 +124,12 @@ private:
     /// Derivative of the displacement along `axis` of the contact point that sits at lever * normal from the centre.
     static gradient gradient_of(point const& axis, point const& normal, double lever) {
         gradient g{};
-        for (int x = 0; x < Dim; ++x) g[x] = axis[x];
+        for (int x = 0; x < Dim; ++x) g[std::size_t(x)] = axis[x];
         if constexpr (Dim == 2) {
             g[2] = lever * cross(normal, axis);
         } else {
             point const t = cross(normal, axis) * lever;
-            for (int x = 0; x < 3; ++x) g[3 + x] = t[x];
+            for (int x = 0; x < 3; ++x) g[std::size_t(3 + x)] = t[x];
         }
         return g;
     }
