@@ -123,8 +123,18 @@ public:
     /// Eq. 8's unit vector in 2D, a unit quaternion {w, x, y, z} in 3D.
     auto orientation(std::size_t id) const { return widen(store_.orientation(internal(id))); }
 
-    void set_velocity(std::size_t id, point const& v) { store_.set_velocity(internal(id), narrow(v)); }
-    void set_spin(std::size_t id, vec<double, rotation_dim<dim>> const& w) { store_.set_spin(internal(id), narrow(w)); }
+    /// Gives a particle a velocity, m/s; the ledger books the kinetic energy as work from outside.
+    void set_velocity(std::size_t id, point const& v) {
+        auto const k = internal(id);
+        book_work(0.5 * double(store_.mass(k)) * (squared_norm(v) - squared_norm(widen(store_.velocity(k)))));
+        store_.set_velocity(k, narrow(v));
+    }
+    /// Gives a particle a spin, rad/s; the ledger books the kinetic energy as work from outside.
+    void set_spin(std::size_t id, vec<double, rotation_dim<dim>> const& w) {
+        auto const k = internal(id);
+        book_work(0.5 * double(store_.moment_of_inertia(k)) * (squared_norm(w) - squared_norm(widen(store_.spin(k)))));
+        store_.set_spin(k, narrow(w));
+    }
     /// Prescribes the motion along the given axes: there the particle keeps the velocity it has or is given.
     void fix(std::size_t id, fixed_axes const& axes = fixed_axes::all()) { store_.fix(internal(id), axes); }
     /// Applies a force, and in 2D a torque, on top of gravity; replaces the one applied before. N, N m.
@@ -250,6 +260,9 @@ private:
     void take_step() {
         settle_time_step();
         auto const dt = real(*time_step_);
+        // The slip of a step is that of the motion before it: in the first step there was none, whatever the
+        // velocities are by now.
+        auto const moved_for = step_ == 0 ? real(0) : dt;
         if (interactions_.update(store_, moved_)) {
             update_walls();
             skip_idle_throats();
@@ -263,13 +276,13 @@ private:
             // A particle's pairs belong to it and to lower-numbered ones: once the pairs of a chunk are evaluated,
             // nothing reads its particles again, and they can move while they are in the cache.
             for (int c = 0; c < chunks; ++c) {
-                interactions_.template evaluate<WithEnergy>(store_, c, dt);
+                interactions_.template evaluate<WithEnergy>(store_, c, moved_for);
                 move<WithEnergy>(c, dt, nullptr);
             }
         } else {
             for_each_chunk(chunks, parameters_.threads,
-                           [&](int c) { interactions_.template evaluate<WithEnergy>(store_, c, dt); });
-            if (further_forces) add_further_forces(dt);
+                           [&](int c) { interactions_.template evaluate<WithEnergy>(store_, c, moved_for); });
+            if (further_forces) add_further_forces(dt, moved_for);
             for_each_chunk(chunks, parameters_.threads,
                            [&](int c) { move<WithEnergy>(c, dt, further_forces ? &extra_ : nullptr); });
         }
@@ -291,10 +304,10 @@ private:
                                                                       extra, reports_[std::size_t(chunk)]);
     }
 
-    void add_further_forces(real dt) {
+    void add_further_forces(real dt, real moved_for) {
         std::fill(extra_.data(), extra_.data() + 4 * extra_.size(), real(0));
         if (!walls_.empty()) {
-            auto const beyond = walls_.evaluate(store_, dt, parameters_.damping, extra_, wall_energy_);
+            auto const beyond = walls_.evaluate(store_, moved_for, parameters_.damping, extra_, wall_energy_);
             if (beyond >= 0) throw_unstable(beyond, "its centre is beyond a wall", "the load or speed is too high for the stiffness of the wall");
         }
         if constexpr (has_fluid<Model>)
@@ -400,6 +413,12 @@ private:
             text += ") m: ";
         }
         throw unstable_run(text + what + "; likely cause: " + cause, step_, id);
+    }
+
+    void book_work(double work) {
+        if (!ledger_open_) return;
+        ledger_.external += work;
+        work_ahead_ += work;
     }
 
     void keep_ledger(double dt) {
