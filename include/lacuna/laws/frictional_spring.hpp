@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <limits>
 #include <string>
 
 #include <lacuna/core/error.hpp>
@@ -42,6 +43,9 @@ struct frictional_spring {
         vec<T, shear_dim<Dim>> shear_force;
     };
 
+    template <class Value>
+    static constexpr Value slack = 8 * std::numeric_limits<Value>::epsilon();
+
     /// Stiffness of two materials in series, each contributing twice its own so that equal materials keep theirs
     /// (harmonic mean); the smaller friction.
     static parameters<double> combine(material const& a, material const& b, double /*thickness*/) {
@@ -75,7 +79,8 @@ struct frictional_spring {
         T const normal = -(p.normal_stiffness * overlap);
         auto const shear = clip_norm(h.shear_force + m.slip * p.shear_stiffness, -(p.friction * normal));
         auto const slid = m.slip - (shear - h.shear_force) * p.shear_compliance;
-        auto const apart = m.distance >= max(h.touching_distance, m.touching_distance());
+        // A rounding more than the limit: a pair that starts with a gap at its own L must not lose it by standing still.
+        auto const apart = m.distance > max(h.touching_distance, m.touching_distance()) * T(1 + slack<value_t<T>>);
         return {normal,
                 shear,
                 {select(apart, m.touching_distance(), h.touching_distance), shear},
