@@ -17,6 +17,18 @@ namespace lacuna {
 template <template <class> class Aggregate, class T>
 inline constexpr std::size_t field_count = sizeof(Aggregate<T>) / sizeof(T);
 
+namespace detail {
+/// Member number f of an aggregate of T. Copies by whole aggregates would go through memory; single members stay in
+/// registers.
+template <class T, class Aggregate>
+auto& field(Aggregate& aggregate, std::size_t f) noexcept {
+    if constexpr (std::is_const_v<Aggregate>)
+        return reinterpret_cast<T const*>(&aggregate)[f];
+    else
+        return reinterpret_cast<T*>(&aggregate)[f];
+}
+} // namespace detail
+
 /// The same aggregate in another scalar type, field by field.
 /// \param convert from the source's scalar to the target's
 template <class To, class From, class Target, class Source, class Convert>
@@ -45,16 +57,14 @@ public:
     void resize(std::size_t packs) { data_.resize(packs * fields * W); }
 
     Aggregate<lanes> load(std::size_t p) const noexcept {
-        std::array<lanes, fields> row;
-        for (std::size_t f = 0; f < fields; ++f) row[f] = lanes::load(&data_[(p * fields + f) * W]);
+        Real const* from = data_.data() + p * fields * W;
         Aggregate<lanes> r;
-        __builtin_memcpy(static_cast<void*>(&r), &row, sizeof r);
+        for (std::size_t f = 0; f < fields; ++f) detail::field<lanes>(r, f) = lanes::load(from + f * W);
         return r;
     }
     void store(std::size_t p, Aggregate<lanes> const& value) noexcept {
-        std::array<lanes, fields> row;
-        __builtin_memcpy(&row, &value, sizeof value);
-        for (std::size_t f = 0; f < fields; ++f) row[f].store(&data_[(p * fields + f) * W]);
+        Real* to = data_.data() + p * fields * W;
+        for (std::size_t f = 0; f < fields; ++f) detail::field<lanes>(value, f).store(to + f * W);
     }
     /// Entry `k` of all, W to a pack.
     Aggregate<Real> get(std::size_t k) const noexcept {

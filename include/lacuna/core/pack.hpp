@@ -71,7 +71,7 @@ struct pack {
     pack() = default;
     pack(native const& x) noexcept : v(x) {} // NOLINT: the register type is the pack
     pack(T x) noexcept {              // NOLINT: a plain number is the same in all lanes
-        v = native{} + x;
+        v = x - native{}; // x - 0 is x to the compiler; 0 + x is not, when x may be -0
     }
     /// W consecutive numbers from memory of any alignment.
     static pack load(T const* from) noexcept {

@@ -70,66 +70,60 @@ V join(H low, H high) noexcept {
     else
         return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
 }
-template <class H, class T>
-H load_native(T const* from) noexcept {
-    H r;
-    __builtin_memcpy(&r, from, sizeof(H));
-    return r;
-}
 } // namespace detail
 
-/// Fetches records index[0..W) and turns them: result[l][k] is number l of record index[k].
-template <class T, int W, class Index>
-std::array<pack<T, W>, 4> load_turned(T const* base, Index const* index) noexcept {
+/// Turns W records that come from `at(0)` to `at(W - 1)`: result[l][k] is number l of at(k).
+template <class T, int W, class At>
+std::array<pack<T, W>, 4> turn_records(At const& at) noexcept {
     using P = pack<T, W>;
-    auto const at = [&](int k) { return base + 4 * std::ptrdiff_t(index[k]); };
     if constexpr (sizeof(T) == 8 && W == 8) {
-        using quad = typename pack<T, 4>::native;
         using full = typename P::native;
-        auto const two = [&](int a, int b) {
-            return detail::join<full>(detail::load_native<quad>(at(a)), detail::load_native<quad>(at(b)));
-        };
-        full const a = two(0, 2), b = two(1, 3), c = two(4, 6), d = two(5, 7);
-        full const ab0 = __builtin_shufflevector(a, b, 0, 8, 2, 10, 4, 12, 6, 14);
-        full const ab1 = __builtin_shufflevector(a, b, 1, 9, 3, 11, 5, 13, 7, 15);
-        full const cd0 = __builtin_shufflevector(c, d, 0, 8, 2, 10, 4, 12, 6, 14);
-        full const cd1 = __builtin_shufflevector(c, d, 1, 9, 3, 11, 5, 13, 7, 15);
+        auto two = [&](int a, int b) { return detail::join<full>(at(a).v, at(b).v); };
+        full a = two(0, 2), b = two(1, 3), c = two(4, 6), d = two(5, 7);
+        full ab0 = __builtin_shufflevector(a, b, 0, 8, 2, 10, 4, 12, 6, 14);
+        full ab1 = __builtin_shufflevector(a, b, 1, 9, 3, 11, 5, 13, 7, 15);
+        full cd0 = __builtin_shufflevector(c, d, 0, 8, 2, 10, 4, 12, 6, 14);
+        full cd1 = __builtin_shufflevector(c, d, 1, 9, 3, 11, 5, 13, 7, 15);
         return {P(full(__builtin_shufflevector(ab0, cd0, 0, 1, 4, 5, 8, 9, 12, 13))),
                 P(full(__builtin_shufflevector(ab1, cd1, 0, 1, 4, 5, 8, 9, 12, 13))),
                 P(full(__builtin_shufflevector(ab0, cd0, 2, 3, 6, 7, 10, 11, 14, 15))),
                 P(full(__builtin_shufflevector(ab1, cd1, 2, 3, 6, 7, 10, 11, 14, 15)))};
     } else if constexpr (W == 4) {
         using quad = typename P::native;
-        quad const a = detail::load_native<quad>(at(0)), b = detail::load_native<quad>(at(1));
-        quad const c = detail::load_native<quad>(at(2)), d = detail::load_native<quad>(at(3));
-        quad const ab0 = __builtin_shufflevector(a, b, 0, 4, 2, 6), ab1 = __builtin_shufflevector(a, b, 1, 5, 3, 7);
-        quad const cd0 = __builtin_shufflevector(c, d, 0, 4, 2, 6), cd1 = __builtin_shufflevector(c, d, 1, 5, 3, 7);
+        quad a = at(0).v, b = at(1).v, c = at(2).v, d = at(3).v;
+        quad ab0 = __builtin_shufflevector(a, b, 0, 4, 2, 6), ab1 = __builtin_shufflevector(a, b, 1, 5, 3, 7);
+        quad cd0 = __builtin_shufflevector(c, d, 0, 4, 2, 6), cd1 = __builtin_shufflevector(c, d, 1, 5, 3, 7);
         return {P(quad(__builtin_shufflevector(ab0, cd0, 0, 1, 4, 5))), P(quad(__builtin_shufflevector(ab1, cd1, 0, 1, 4, 5))),
                 P(quad(__builtin_shufflevector(ab0, cd0, 2, 3, 6, 7))), P(quad(__builtin_shufflevector(ab1, cd1, 2, 3, 6, 7)))};
     } else if constexpr (sizeof(T) == 4 && W == 16) {
-        using quad = typename pack<T, 4>::native;
         using half = typename pack<T, 8>::native;
         using full = typename P::native;
-        auto const four = [&](int k) {
-            return detail::join<full>(
-                detail::join<half>(detail::load_native<quad>(at(k)), detail::load_native<quad>(at(k + 4))),
-                detail::join<half>(detail::load_native<quad>(at(k + 8)), detail::load_native<quad>(at(k + 12))));
+        auto four = [&](int k) {
+            return detail::join<full>(detail::join<half>(at(k).v, at(k + 4).v), detail::join<half>(at(k + 8).v, at(k + 12).v));
         };
-        full const a = four(0), b = four(1), c = four(2), d = four(3);
-        full const ab0 = __builtin_shufflevector(a, b, 0, 16, 2, 18, 4, 20, 6, 22, 8, 24, 10, 26, 12, 28, 14, 30);
-        full const ab1 = __builtin_shufflevector(a, b, 1, 17, 3, 19, 5, 21, 7, 23, 9, 25, 11, 27, 13, 29, 15, 31);
-        full const cd0 = __builtin_shufflevector(c, d, 0, 16, 2, 18, 4, 20, 6, 22, 8, 24, 10, 26, 12, 28, 14, 30);
-        full const cd1 = __builtin_shufflevector(c, d, 1, 17, 3, 19, 5, 21, 7, 23, 9, 25, 11, 27, 13, 29, 15, 31);
+        full a = four(0), b = four(1), c = four(2), d = four(3);
+        full ab0 = __builtin_shufflevector(a, b, 0, 16, 2, 18, 4, 20, 6, 22, 8, 24, 10, 26, 12, 28, 14, 30);
+        full ab1 = __builtin_shufflevector(a, b, 1, 17, 3, 19, 5, 21, 7, 23, 9, 25, 11, 27, 13, 29, 15, 31);
+        full cd0 = __builtin_shufflevector(c, d, 0, 16, 2, 18, 4, 20, 6, 22, 8, 24, 10, 26, 12, 28, 14, 30);
+        full cd1 = __builtin_shufflevector(c, d, 1, 17, 3, 19, 5, 21, 7, 23, 9, 25, 11, 27, 13, 29, 15, 31);
         return {P(full(__builtin_shufflevector(ab0, cd0, 0, 1, 16, 17, 4, 5, 20, 21, 8, 9, 24, 25, 12, 13, 28, 29))),
                 P(full(__builtin_shufflevector(ab1, cd1, 0, 1, 16, 17, 4, 5, 20, 21, 8, 9, 24, 25, 12, 13, 28, 29))),
                 P(full(__builtin_shufflevector(ab0, cd0, 2, 3, 18, 19, 6, 7, 22, 23, 10, 11, 26, 27, 14, 15, 30, 31))),
                 P(full(__builtin_shufflevector(ab1, cd1, 2, 3, 18, 19, 6, 7, 22, 23, 10, 11, 26, 27, 14, 15, 30, 31)))};
     } else {
         std::array<P, 4> r;
-        for (int k = 0; k < W; ++k)
-            for (int l = 0; l < 4; ++l) r[std::size_t(l)].v[k] = at(k)[l];
+        for (int k = 0; k < W; ++k) {
+            auto one = at(k);
+            for (int l = 0; l < 4; ++l) r[std::size_t(l)].v[k] = one[l];
+        }
         return r;
     }
+}
+
+/// Fetches the records that begin at base[offset[0..W)] and turns them.
+template <class T, int W, class Offset>
+std::array<pack<T, W>, 4> load_turned(T const* base, Offset const* offset) noexcept {
+    return turn_records<T, W>([&](int k) { return record<T>::load(base + offset[k]); });
 }
 
 /// Writes W records in a row: number l of record k is value[l][k].
@@ -137,12 +131,12 @@ template <class T, int W>
 void store_turned(T* to, std::array<pack<T, W>, 4> const& value) noexcept {
     if constexpr (sizeof(T) == 8 && W == 8) {
         using full = typename pack<T, W>::native;
-        full const p = value[0].v, q = value[1].v, r = value[2].v, s = value[3].v;
-        full const pq0 = __builtin_shufflevector(p, q, 0, 8, 2, 10, 4, 12, 6, 14);
-        full const pq1 = __builtin_shufflevector(p, q, 1, 9, 3, 11, 5, 13, 7, 15);
-        full const rs0 = __builtin_shufflevector(r, s, 0, 8, 2, 10, 4, 12, 6, 14);
-        full const rs1 = __builtin_shufflevector(r, s, 1, 9, 3, 11, 5, 13, 7, 15);
-        auto const put = [&](int first, full two) {
+        full p = value[0].v, q = value[1].v, r = value[2].v, s = value[3].v;
+        full pq0 = __builtin_shufflevector(p, q, 0, 8, 2, 10, 4, 12, 6, 14);
+        full pq1 = __builtin_shufflevector(p, q, 1, 9, 3, 11, 5, 13, 7, 15);
+        full rs0 = __builtin_shufflevector(r, s, 0, 8, 2, 10, 4, 12, 6, 14);
+        full rs1 = __builtin_shufflevector(r, s, 1, 9, 3, 11, 5, 13, 7, 15);
+        auto put = [&](int first, full two) {
             pack<T, 4>(__builtin_shufflevector(two, two, 0, 1, 2, 3)).store(to + 4 * first);
             pack<T, 4>(__builtin_shufflevector(two, two, 4, 5, 6, 7)).store(to + 4 * (first + 2));
         };

@@ -8,9 +8,11 @@ namespace lacuna {
 /// A short column of N scalars of any kind (plain number, pack, dual): positions, velocities, forces.
 ///
 /// Not an Eigen matrix on purpose: laws instantiate it with packs and duals, in loops where every temporary
-/// counts and in programs whose compile time counts; core/eigen.hpp converts.
+/// counts and in programs whose compile time counts. Written without loops: an index that is a variable, if only
+/// until a loop is unrolled, makes compilers keep the components in memory.
 template <class T, int N>
 struct vec {
+    static_assert(N >= 1 && N <= 4);
     T element[N];
 
     constexpr T& operator[](int i) noexcept { return element[i]; }
@@ -20,24 +22,44 @@ struct vec {
     static constexpr int size() noexcept { return N; }
 
     friend constexpr vec operator+(vec const& a, vec const& b) noexcept {
-        vec r{};
-        for (int i = 0; i < N; ++i) r[i] = a[i] + b[i];
-        return r;
+        if constexpr (N == 1)
+            return vec{{a[0] + b[0]}};
+        else if constexpr (N == 2)
+            return vec{{a[0] + b[0], a[1] + b[1]}};
+        else if constexpr (N == 3)
+            return vec{{a[0] + b[0], a[1] + b[1], a[2] + b[2]}};
+        else
+            return vec{{a[0] + b[0], a[1] + b[1], a[2] + b[2], a[3] + b[3]}};
     }
     friend constexpr vec operator-(vec const& a, vec const& b) noexcept {
-        vec r{};
-        for (int i = 0; i < N; ++i) r[i] = a[i] - b[i];
-        return r;
+        if constexpr (N == 1)
+            return vec{{a[0] - b[0]}};
+        else if constexpr (N == 2)
+            return vec{{a[0] - b[0], a[1] - b[1]}};
+        else if constexpr (N == 3)
+            return vec{{a[0] - b[0], a[1] - b[1], a[2] - b[2]}};
+        else
+            return vec{{a[0] - b[0], a[1] - b[1], a[2] - b[2], a[3] - b[3]}};
     }
     friend constexpr vec operator-(vec const& a) noexcept {
-        vec r{};
-        for (int i = 0; i < N; ++i) r[i] = -a[i];
-        return r;
+        if constexpr (N == 1)
+            return vec{{-a[0]}};
+        else if constexpr (N == 2)
+            return vec{{-a[0], -a[1]}};
+        else if constexpr (N == 3)
+            return vec{{-a[0], -a[1], -a[2]}};
+        else
+            return vec{{-a[0], -a[1], -a[2], -a[3]}};
     }
     friend constexpr vec operator*(vec const& a, T const& s) noexcept {
-        vec r{};
-        for (int i = 0; i < N; ++i) r[i] = a[i] * s;
-        return r;
+        if constexpr (N == 1)
+            return vec{{a[0] * s}};
+        else if constexpr (N == 2)
+            return vec{{a[0] * s, a[1] * s}};
+        else if constexpr (N == 3)
+            return vec{{a[0] * s, a[1] * s, a[2] * s}};
+        else
+            return vec{{a[0] * s, a[1] * s, a[2] * s, a[3] * s}};
     }
     friend constexpr vec operator*(T const& s, vec const& a) noexcept { return a * s; }
     friend constexpr vec operator/(vec const& a, T const& s) noexcept { return a * (T(1) / s); }
@@ -55,9 +77,14 @@ struct vec {
 
 template <class T, int N>
 constexpr T dot(vec<T, N> const& a, vec<T, N> const& b) noexcept {
-    T sum = a[0] * b[0];
-    for (int i = 1; i < N; ++i) sum = sum + a[i] * b[i];
-    return sum;
+    if constexpr (N == 1)
+        return a[0] * b[0];
+    else if constexpr (N == 2)
+        return a[0] * b[0] + a[1] * b[1];
+    else if constexpr (N == 3)
+        return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+    else
+        return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
 }
 template <class T, int N>
 constexpr T squared_norm(vec<T, N> const& a) noexcept {
@@ -87,9 +114,12 @@ constexpr vec<T, 2> perpendicular(vec<T, 2> const& a) noexcept {
 /// Component by component: condition ? a : b.
 template <class T, int N>
 constexpr vec<T, N> select(mask_t<T> const& condition, vec<T, N> const& a, vec<T, N> const& b) noexcept {
-    vec<T, N> r{};
-    for (int i = 0; i < N; ++i) r[i] = select(condition, a[i], b[i]);
-    return r;
+    if constexpr (N == 1)
+        return {{select(condition, a[0], b[0])}};
+    else if constexpr (N == 2)
+        return {{select(condition, a[0], b[0]), select(condition, a[1], b[1])}};
+    else
+        return {{select(condition, a[0], b[0]), select(condition, a[1], b[1]), select(condition, a[2], b[2])}};
 }
 /// The vector, shortened to length `limit` where it is longer (limit >= 0).
 template <class T, int N>

@@ -30,7 +30,7 @@ public:
             (void)std::initializer_list<int>{([&] {
                 for (std::size_t s = 0; s < tables.slots(); ++s)
                     if (!tables.is_filler(s, particles))
-                        visit(tables.i()[s], tables.j()[s], (first + std::int32_t(s)) * reals_per_pair);
+                        visit(tables.i(s), tables.j(s), (first + std::int32_t(s)) * reals_per_pair);
                 first += std::int32_t(tables.slots());
             }(), 0)...};
             return first * reals_per_pair;
@@ -79,19 +79,17 @@ public:
     force_sum(force_rows<Real, Dim> const& rows, Real const* forces, int chunk) noexcept
         : forces_(forces), row_(rows.rows(chunk)), length_(rows.row_length(chunk)) {}
 
-    /// 2D: {F_x, F_y, torque, 0} on particle number `k` of the chunk.
-    rec operator()(int k, Real radius) const noexcept
+    /// 2D: {F_x, F_y, torque over radius, 0} on particle number `k` of the chunk.
+    rec operator()(int k) const noexcept
         requires(Dim == 2)
     {
         rec total(Real(0));
         std::int32_t const* entry = row_ + std::ptrdiff_t(k) * length_;
         for (int e = 0; e < length_; ++e) total += rec::load(forces_ + (entry[e] >> 1)) * sign(entry[e] & 1);
-        rec scale(Real(1));
-        scale.v[2] = radius;
-        return total * scale;
+        return total;
     }
-    /// 3D: force and torque on particle number `k` of the chunk.
-    std::array<rec, 2> operator()(int k, Real radius) const noexcept
+    /// 3D: force, and torque over radius, on particle number `k` of the chunk.
+    std::array<rec, 2> operator()(int k) const noexcept
         requires(Dim == 3)
     {
         rec force(Real(0)), torque(Real(0));
@@ -100,7 +98,7 @@ public:
             force += rec::load(forces_ + (entry[e] >> 1)) * sign(entry[e] & 1);
             torque += rec::load(forces_ + (entry[e] >> 1) + 4);
         }
-        return {force, torque * rec(radius)};
+        return {force, torque};
     }
 
 private:

@@ -200,7 +200,7 @@ private:
                          std::size_t first_slot, bool bonded, Visit const& visit) const {
         for (std::size_t s = 0; s < table.slots(); ++s) {
             if (table.is_filler(s, store.size())) continue;
-            auto const i = std::size_t(table.i()[s]), j = std::size_t(table.j()[s]);
+            auto const i = std::size_t(table.i(s)), j = std::size_t(table.j(s));
             vec<double, Dim> arm{};
             for (int axis = 0; axis < Dim; ++axis)
                 arm[axis] = double(store.position(j)[axis]) - double(store.position(i)[axis]);
@@ -367,10 +367,10 @@ private:
     [[gnu::noinline]] void note_deep_overlap(store_type const& store, int chunk, std::size_t pack) {
         for (std::size_t s = pack * contact_table::width; s < (pack + 1) * contact_table::width; ++s) {
             if (contacts_.is_filler(s, store.size())) continue;
-            auto const i = std::size_t(contacts_.i()[s]), j = std::size_t(contacts_.j()[s]);
+            auto const i = std::size_t(contacts_.i(s)), j = std::size_t(contacts_.j(s));
             Real const distance = norm(store.position(j) - store.position(i));
             if (distance < std::max(store.radius(i), store.radius(j)))
-                deep_overlap_[std::size_t(chunk)] = contacts_.i()[s];
+                deep_overlap_[std::size_t(chunk)] = contacts_.i(s);
         }
     }
 

@@ -16,6 +16,16 @@ struct body {
     T mass;                         ///< kg
 };
 
+/// Two bodies as their relative motion sees them.
+template <class T, int Dim>
+struct relative_state {
+    vec<T, Dim> arm;                   ///< from i to j, m
+    vec<T, Dim> velocity;              ///< of j against i, m/s
+    vec<T, rotation_dim<Dim>> rolling; ///< r_i w_i + r_j w_j, m/s
+    T radii;                           ///< r_i + r_j, m
+    T radius_i, radius_j;              ///< m
+};
+
 /// A pair's own frame, its relative motion in it, and how forces in the frame act on the two bodies.
 template <class T, int Dim>
 struct pair_frame {
@@ -24,7 +34,7 @@ struct pair_frame {
     pair_motion<T, Dim> motion; ///< what the laws read
     T lever;                    ///< lever arm over radius: distance / (r_i + r_j), the same for both bodies
     vec<T, 3> previous_normal;  ///< 3D only: normal one step ago
-    T twist;                    ///< 3D only: mean spin about the normal times the step, rad
+    T twist;                    ///< 3D only: mean spin, weighted by radius, about the normal, times the step, rad
 
     /// Force on body i (body j gets the opposite), N.
     vec<T, Dim> force(T normal_force, shear const& shear_force) const {
@@ -45,11 +55,11 @@ struct pair_frame {
         if constexpr (Dim == 2) {
             return stored;
         } else {
-            auto const bisector = normal + previous_normal;
-            auto const swung = stored - bisector * (dot(normal, stored) / (T(1) + dot(normal, previous_normal)));
+            auto bisector = normal + previous_normal;
+            auto swung = stored - bisector * (dot(normal, stored) / (T(1) + dot(normal, previous_normal)));
             // Cayley's form of the rotation by `twist`: exact length for any angle, without trigonometry.
-            T const h = T(0.5) * twist;
-            T const scale = T(1) / (T(1) + h * h);
+            T h = T(0.5) * twist;
+            T scale = T(1) / (T(1) + h * h);
             return swung * ((T(1) - h * h) * scale) + cross(normal, swung) * (T(2) * h * scale);
         }
     }
@@ -62,43 +72,50 @@ struct pair_frame {
 /// times the angle by which the pair turned relative to its bodies. The angle is that between the normals of now
 /// and of one step ago, not velocity / distance, whose error of third order would add up over many turns.
 template <class T, int Dim>
-pair_frame<T, Dim> relative_motion(body<T, Dim> const& i, body<T, Dim> const& j, T time_step) {
-    auto const arm = j.position - i.position;
-    auto const velocity = j.velocity - i.velocity;
-    auto const step = velocity * time_step;
-    T const radii = i.radius + j.radius;
-    T const squared = squared_norm(arm);
-    T const distance = sqrt(squared);
-    T const inverse = T(1) / (distance * radii);
-    T const inverse_distance = inverse * radii;
-    T const inverse_radii = inverse * distance;
+pair_frame<T, Dim> relative_motion(relative_state<T, Dim> const& state, T const& time_step) {
+    // No local variable of this path is const: g++ 12 keeps const ones in memory once they are packs.
+    auto arm = state.arm;
+    auto step = state.velocity * time_step;
+    T distance = sqrt(squared_norm(arm));
+    T inverse = T(1) / (distance * state.radii);
+    T inverse_distance = inverse * state.radii;
+    T inverse_radii = inverse * distance;
 
-    pair_frame<T, Dim> frame{};
+    pair_frame<T, Dim> frame;
     frame.normal = arm * inverse_distance;
     frame.lever = distance * inverse_radii;
     frame.motion.distance = distance;
-    frame.motion.radius_i = i.radius;
-    frame.motion.radius_j = j.radius;
-    frame.motion.normal_rate = dot(frame.normal, velocity);
-    auto const rolling = (i.spin * i.radius + j.spin * j.radius) * (time_step * inverse_radii);
+    frame.motion.radius_i = state.radius_i;
+    frame.motion.radius_j = state.radius_j;
+    frame.motion.normal_rate = dot(frame.normal, state.velocity);
+    auto rolling = state.rolling * (time_step * inverse_radii);
     if constexpr (Dim == 2) {
         // tan(angle) = (arm x step) / (arm . (arm - step)); the quotient by the geometric series, the arc tangent
         // by its own: below 1e-12 relative for up to 1/100 rad per step.
-        T const e = frame.motion.normal_rate * time_step * inverse_distance;
-        T const t = cross(arm, step) * (inverse_distance * inverse_distance) * ((T(1) + e) * (T(1) + e * e));
-        T const t2 = t * t;
-        T const angle = t - t * t2 * (T(1.0 / 3) - t2 * T(0.2));
+        T e = frame.motion.normal_rate * time_step * inverse_distance;
+        T t = cross(arm, step) * (inverse_distance * inverse_distance) * ((T(1) + e) * (T(1) + e * e));
+        T t2 = t * t;
+        T angle = t - t * t2 * (T(1.0 / 3) - t2 * T(0.2));
         frame.motion.slip = {distance * (angle - rolling[0])};
     } else {
-        auto const before = arm - step;
+        auto before = arm - step;
         frame.previous_normal = before / sqrt(squared_norm(before));
-        auto const middle = (frame.normal + frame.previous_normal) * T(0.5);
-        T const chord = T(1) + squared_norm(rolling) * T(1.0 / 12);
-        auto const slip = (frame.normal - frame.previous_normal - cross(rolling, middle) * chord) * distance;
+        auto middle = (frame.normal + frame.previous_normal) * T(0.5);
+        T chord = T(1) + squared_norm(rolling) * T(1.0 / 12);
+        auto slip = (frame.normal - frame.previous_normal - cross(rolling, middle) * chord) * distance;
         frame.motion.slip = slip - frame.normal * dot(frame.normal, slip);
-        frame.twist = T(0.5) * dot(i.spin + j.spin, frame.normal) * time_step;
+        frame.twist = dot(rolling, frame.normal);
     }
     return frame;
+}
+
+/// The same for two bodies.
+template <class T, int Dim>
+pair_frame<T, Dim> relative_motion(body<T, Dim> const& i, body<T, Dim> const& j, T time_step) {
+    return relative_motion(relative_state<T, Dim>{j.position - i.position, j.velocity - i.velocity,
+                                                  i.spin * i.radius + j.spin * j.radius, i.radius + j.radius, i.radius,
+                                                  j.radius},
+                           time_step);
 }
 
 } // namespace lacuna

@@ -20,21 +20,19 @@ struct parameter_table {
         row.push_back(convert_fields<Real, double, parameters_of<Real>>(p, [](double x) { return Real(x); }));
     }
     /// The parameters of the pairs of one pack.
+    /// \param uniform row that all of them share, or -1
+    /// \param index row of each
     template <class Lanes>
-    parameters_of<Lanes> lanes(std::int32_t uniform, std::int32_t const* index) const noexcept {
+    void load(parameters_of<Lanes>& to, std::int32_t uniform, std::int32_t const* index) const noexcept {
         constexpr std::size_t count = field_count<parameters_of, Real>;
-        std::array<Lanes, count> fields;
+        auto const* from = reinterpret_cast<Real const*>(row.data());
         if (uniform >= 0) {
-            auto const* from = reinterpret_cast<Real const*>(&row[std::size_t(uniform)]);
-            for (std::size_t f = 0; f < count; ++f) fields[f] = Lanes(from[f]);
+            for (std::size_t f = 0; f < count; ++f) detail::field<Lanes>(to, f) = Lanes(from[std::size_t(uniform) * count + f]);
         } else {
-            auto const* from = reinterpret_cast<Real const*>(row.data());
             for (std::size_t f = 0; f < count; ++f)
-                for (int k = 0; k < Lanes::width; ++k) fields[f].v[k] = from[std::size_t(index[k]) * count + f];
+                for (int k = 0; k < Lanes::width; ++k)
+                    detail::field<Lanes>(to, f).v[k] = from[std::size_t(index[k]) * count + f];
         }
-        parameters_of<Lanes> r;
-        __builtin_memcpy(static_cast<void*>(&r), &fields, sizeof r);
-        return r;
     }
 };
 
@@ -54,19 +52,42 @@ struct pair_forces {
     Real const* of(std::size_t slot) const noexcept { return column.data() + 4 * records_per_pair * slot; }
 };
 
-/// Bodies index[0..W) of a store, as packs.
+/// The relative states of one pack of pairs.
+///
+/// With rotations kept as surface speeds, all of it but the single radii is a difference or a sum of the partners'
+/// records. One multiplication by a record of signs makes both at once, before the records are turned into packs.
+/// \param i, j where the partners' records begin
 template <class Lanes, class Real, int Dim>
-body<Lanes, Dim> load_bodies(particle_store<Real, Dim> const& store, std::int32_t const* index) noexcept {
+relative_state<Lanes, Dim> load_relative(particle_store<Real, Dim> const& store, std::uint32_t const* i,
+                                         std::uint32_t const* j) noexcept {
     constexpr int W = Lanes::width;
-    auto const place = load_turned<Real, W>(store.place().data(), index);
-    auto const motion = load_turned<Real, W>(store.velocities().data(), index);
+    using rec = record<Real>;
+    auto joined = [&](Real const* base, rec const& sign) {
+        return turn_records<Real, W>([&](int k) { return rec::load(base + j[k]) + rec::load(base + i[k]) * sign; });
+    };
+    rec difference(Real(-1)), difference_and_sum(Real(-1));
+    difference_and_sum.v[3] = 1;
+    auto place = joined(store.place().data(), difference_and_sum);
+    relative_state<Lanes, Dim> s;
+    s.radii = place[3];
     if constexpr (Dim == 2) {
-        return {{place[0], place[1]}, {motion[0], motion[1]}, {motion[2]}, place[3], motion[3]};
+        difference.v[2] = 1;
+        auto motion = joined(store.velocities().data(), difference);
+        s.arm = {{place[0], place[1]}};
+        s.velocity = {{motion[0], motion[1]}};
+        s.rolling = {{motion[2]}};
+        s.radius_i = (place[3] - motion[3]) * Lanes(Real(0.5));
+        s.radius_j = (place[3] + motion[3]) * Lanes(Real(0.5));
     } else {
-        auto const spin = load_turned<Real, W>(store.spins().data(), index);
-        return {{place[0], place[1], place[2]}, {motion[0], motion[1], motion[2]}, {spin[0], spin[1], spin[2]},
-                place[3], motion[3]};
+        auto motion = joined(store.velocities().data(), difference);
+        auto turning = joined(store.surface_speeds().data(), rec(Real(1)));
+        s.arm = {{place[0], place[1], place[2]}};
+        s.velocity = {{motion[0], motion[1], motion[2]}};
+        s.rolling = {{turning[0], turning[1], turning[2]}};
+        s.radius_i = (place[3] - motion[3]) * Lanes(Real(0.5));
+        s.radius_j = (place[3] + motion[3]) * Lanes(Real(0.5));
     }
+    return s;
 }
 /// One body of a store, as plain numbers.
 template <class Real, int Dim>
@@ -99,7 +120,7 @@ enum class pair_kind { contact, bond };
 /// \param on_event called as on_event(pack) after a pack in which a bond has failed, or two particles overlap by
 ///        more than a radius; rare
 template <pair_kind Kind, bool WithEnergy, class Law, class Damping, class Real, int Dim, class OnEvent>
-[[gnu::noinline]] void evaluate_chunk(pair_table<Law, Real, Dim>& table, int chunk,
+[[gnu::noinline, gnu::flatten]] void evaluate_chunk(pair_table<Law, Real, Dim>& table, int chunk,
                                       parameter_table<Law, Real> const& parameters,
                                       typename Damping::parameters const& damping,
                                       particle_store<Real, Dim> const& store, Real time_step, Real* forces,
@@ -110,19 +131,27 @@ template <pair_kind Kind, bool WithEnergy, class Law, class Damping, class Real,
     lanes const dt(time_step);
     lanes stored(Real(0)), dissipated(Real(0)), damped(Real(0));
     auto& states = table.states();
+    typename Law::template parameters<lanes> law{};
+    std::int32_t loaded = -2;
     for (std::size_t p = table.first_pack(chunk), end = table.end_pack(chunk); p < end; ++p) {
         std::size_t const slot = p * W;
-        auto const i = load_bodies<lanes>(store, table.i() + slot);
-        auto const j = load_bodies<lanes>(store, table.j() + slot);
-        auto const frame = relative_motion(i, j, dt);
+        auto pair = load_relative<lanes>(store, table.i_records() + slot, table.j_records() + slot);
+        auto frame = relative_motion(pair, dt);
         auto state = states.load(p);
         if constexpr (Dim == 3) state.shear_force = frame.turned(state.shear_force);
-        auto const law = parameters.template lanes<lanes>(table.uniform_parameter(p), table.parameter() + slot);
-        auto const answer = Law::evaluate(law, frame.motion, state);
+        if (std::int32_t const row = table.uniform_parameter(p); row != loaded || row < 0) {
+            parameters.template load<lanes>(law, row, table.parameter() + slot);
+            loaded = row;
+        }
+        auto answer = Law::evaluate(law, frame.motion, state);
         auto normal = answer.normal_force;
         if constexpr (Damping::acts_on_pairs) {
-            auto const drag =
-                Damping::pair_force(damping, Law::stiffness(law), i.mass, j.mass, frame.motion.normal_rate);
+            lanes mass_i, mass_j;
+            for (int k = 0; k < W; ++k) {
+                mass_i.v[k] = store.masses()[table.i(slot + std::size_t(k))];
+                mass_j.v[k] = store.masses()[table.j(slot + std::size_t(k))];
+            }
+            auto drag = Damping::pair_force(damping, Law::stiffness(law), mass_i, mass_j, frame.motion.normal_rate);
             if constexpr (Kind == pair_kind::contact)
                 normal = select(normal < lanes(Real(0)), min(normal + drag, lanes(Real(0))), normal);
             else
@@ -140,7 +169,7 @@ template <pair_kind Kind, bool WithEnergy, class Law, class Damping, class Real,
             if (any(answer.broken)) [[unlikely]]
                 on_event(p);
         } else {
-            if (any(frame.motion.distance < max(i.radius, j.radius))) [[unlikely]]
+            if (any(frame.motion.distance < max(pair.radius_i, pair.radius_j))) [[unlikely]]
                 on_event(p);
         }
     }

@@ -48,8 +48,8 @@ public:
         std::size_t next = 0;
         auto const push = [&](entry const& e) {
             state_.set(i_.size(), e.state);
-            i_.push_back(e.i);
-            j_.push_back(e.j);
+            i_.push_back(4 * std::uint32_t(e.i));
+            j_.push_back(4 * std::uint32_t(e.j));
             parameter_.push_back(e.parameter);
             label_.push_back(e.label);
         };
@@ -78,11 +78,14 @@ public:
     std::size_t first_pack(int chunk) const noexcept { return chunk_begin_[std::size_t(chunk)]; }
     std::size_t end_pack(int chunk) const noexcept { return chunk_begin_[std::size_t(chunk) + 1]; }
 
-    std::int32_t const* i() const noexcept { return i_.data(); }
-    std::int32_t const* j() const noexcept { return j_.data(); }
+    std::int32_t i(std::size_t slot) const noexcept { return std::int32_t(i_[slot] / 4); }
+    std::int32_t j(std::size_t slot) const noexcept { return std::int32_t(j_[slot] / 4); }
+    /// Where the particles' records begin: four times their indices.
+    std::uint32_t const* i_records() const noexcept { return i_.data(); }
+    std::uint32_t const* j_records() const noexcept { return j_.data(); }
     std::int32_t const* parameter() const noexcept { return parameter_.data(); }
     std::int32_t label(std::size_t slot) const noexcept { return label_[slot]; }
-    bool is_filler(std::size_t slot, std::size_t particles) const noexcept { return std::size_t(i_[slot]) >= particles; }
+    bool is_filler(std::size_t slot, std::size_t particles) const noexcept { return std::size_t(i_[slot]) >= 4 * particles; }
     /// The parameter row that all pairs of a pack share, or -1.
     std::int32_t uniform_parameter(std::size_t p) const noexcept { return uniform_[p]; }
     field_packs<history_of, Real, width>& states() noexcept { return state_; }
@@ -91,7 +94,7 @@ public:
     std::int32_t find(std::int32_t i, std::int32_t j) const noexcept {
         int const chunk = int(i / chunk_particles);
         if (i < 0 || chunk >= chunks()) return -1;
-        auto const before = [&](std::size_t s) { return i_[s] < i || (i_[s] == i && j_[s] < j); };
+        auto const before = [&](std::size_t s) { return this->i(s) < i || (this->i(s) == i && this->j(s) < j); };
         std::size_t low = first_pack(chunk) * width, high = end_pack(chunk) * width;
         while (low < high) {
             std::size_t const middle = (low + high) / 2;
@@ -100,14 +103,15 @@ public:
             else
                 high = middle;
         }
-        return low < i_.size() && i_[low] == i && j_[low] == j ? std::int32_t(low) : -1;
+        return low < i_.size() && this->i(low) == i && this->j(low) == j ? std::int32_t(low) : -1;
     }
     entry get(std::size_t slot) const noexcept {
-        return {i_[slot], j_[slot], parameter_[slot], label_[slot], state_.get(slot)};
+        return {i(slot), j(slot), parameter_[slot], label_[slot], state_.get(slot)};
     }
 
 private:
-    std::vector<std::int32_t> i_, j_, parameter_, label_, uniform_;
+    std::vector<std::uint32_t> i_, j_;
+    std::vector<std::int32_t> parameter_, label_, uniform_;
     std::vector<std::size_t> chunk_begin_{0};
     field_packs<history_of, Real, width> state_;
     std::size_t count_ = 0;

@@ -66,8 +66,8 @@ public:
         near_ = std::move(fresh);
     }
 
-    /// Adds the forces of the walls to `out`: a record {F_x, F_y, torque, 0} per particle in 2D, two records
-    /// (force, torque) in 3D.
+    /// Adds the forces of the walls to `out`: a record {F_x, F_y, torque over radius, 0} per particle in 2D, two
+    /// records (force, torque over radius) in 3D.
     /// \return internal index of a particle whose centre is beyond a wall, or -1
     std::int32_t evaluate(particle_store<Real, Dim> const& store, Real time_step,
                           typename Damping::parameters const& damping, record_column<Real>& out, pair_energy& energy) {
@@ -102,7 +102,7 @@ public:
             energy.stored += double(answer.stored_energy);
             energy.dissipated += double(answer.dissipated_energy);
             auto const force = frame.force(normal_force, answer.shear_force);
-            auto const torque = frame.torque_per_radius(answer.shear_force) * i.radius;
+            auto const torque = frame.torque_per_radius(answer.shear_force);
             std::size_t const row = n.particle * pair_forces<Real, Dim>::records_per_pair;
             for (int axis = 0; axis < Dim; ++axis) {
                 out.at(row, axis) += force[axis];

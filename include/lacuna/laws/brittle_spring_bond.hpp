@@ -13,7 +13,7 @@ namespace lacuna {
 struct smaller_particle_area {
     template <int Dim, class T>
     static T area(T radius_i, T radius_j, T thickness) {
-        T const r = min(radius_i, radius_j);
+        T r = min(radius_i, radius_j);
         if constexpr (Dim == 2)
             return T(2) * r * thickness;
         else
@@ -30,9 +30,9 @@ struct box_envelope {
     };
     template <class T>
     static verdict<T> judge(T normal, T shear, T tensile_limit, T shear_limit) {
-        auto const tension = normal > tensile_limit;
-        auto const sheared = shear > shear_limit;
-        auto const tension_leads = normal * shear_limit >= shear * tensile_limit;
+        auto tension = normal > tensile_limit;
+        auto sheared = shear > shear_limit;
+        auto tension_leads = normal * shear_limit >= shear * tensile_limit;
         return {tension || sheared, tension && (!sheared || tension_leads)};
     }
 };
@@ -103,13 +103,13 @@ struct brittle_spring_bond_with {
     template <class T, int Dim>
     static bond_response<T, Dim, history<T, Dim>> evaluate(parameters<T> const& p, pair_motion<T, Dim> const& m,
                                                            history<T, Dim> const& h) {
-        T const area = Area::template area<Dim>(m.radius_i, m.radius_j, p.thickness);
-        T const limit = p.tensile_strength * area;
-        T const trial = p.normal_stiffness * (m.distance - h.rest_distance);
-        T const normal = max(trial, -limit);
-        T const rest = select(trial < -limit, m.distance + limit * p.normal_compliance, h.rest_distance);
-        auto const shear = h.shear_force + m.slip * p.shear_stiffness;
-        auto const verdict = Envelope::judge(normal, norm(shear), limit, p.shear_strength * area);
+        T area = Area::template area<Dim>(m.radius_i, m.radius_j, p.thickness);
+        T limit = p.tensile_strength * area;
+        T trial = p.normal_stiffness * (m.distance - h.rest_distance);
+        T normal = max(trial, -limit);
+        T rest = select(trial < -limit, m.distance + limit * p.normal_compliance, h.rest_distance);
+        auto shear = h.shear_force + m.slip * p.shear_stiffness;
+        auto verdict = Envelope::judge(normal, norm(shear), limit, p.shear_strength * area);
         return {{normal,
                  shear,
                  {rest, shear},

@@ -46,7 +46,7 @@ struct local_damping {
     }
     template <class T>
     static T particle_force(parameters const& p, T const& force, T const& velocity) {
-        T const drag = T(value_t<T>(p.factor)) * abs(force);
+        T drag = T(value_t<T>(p.factor)) * abs(force);
         return select(velocity > T(0), -drag, select(velocity < T(0), drag, T(0)));
     }
 };

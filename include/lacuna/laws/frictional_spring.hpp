@@ -67,20 +67,20 @@ struct frictional_spring {
     template <class T, int Dim>
     static history<T, Dim> hand_over(parameters<T> const& p, pair_motion<T, Dim> const& m, T normal_force,
                                      vec<T, shear_dim<Dim>> const& shear_force) {
-        T const carried = m.distance - normal_force / p.normal_stiffness;
-        T const open = min(m.distance, m.touching_distance());
+        T carried = m.distance - normal_force / p.normal_stiffness;
+        T open = min(m.distance, m.touching_distance());
         return {select(normal_force < T(0), carried, open), shear_force};
     }
 
     template <class T, int Dim>
     static pair_response<T, Dim, history<T, Dim>> evaluate(parameters<T> const& p, pair_motion<T, Dim> const& m,
                                                            history<T, Dim> const& h) {
-        T const overlap = max(h.touching_distance - m.distance, T(0));
-        T const normal = -(p.normal_stiffness * overlap);
-        auto const shear = clip_norm(h.shear_force + m.slip * p.shear_stiffness, -(p.friction * normal));
-        auto const slid = m.slip - (shear - h.shear_force) * p.shear_compliance;
+        T overlap = max(h.touching_distance - m.distance, T(0));
+        T normal = -(p.normal_stiffness * overlap);
+        auto shear = clip_norm(h.shear_force + m.slip * p.shear_stiffness, -(p.friction * normal));
+        auto slid = m.slip - (shear - h.shear_force) * p.shear_compliance;
         // A rounding more than the limit: a pair that starts with a gap at its own L must not lose it by standing still.
-        auto const apart = m.distance > max(h.touching_distance, m.touching_distance()) * T(1 + slack<value_t<T>>);
+        auto apart = m.distance > max(h.touching_distance, m.touching_distance()) * T(1 + slack<value_t<T>>);
         return {normal,
                 shear,
                 {select(apart, m.touching_distance(), h.touching_distance), shear},

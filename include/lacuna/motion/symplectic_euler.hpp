@@ -25,60 +25,60 @@ struct motion_report {
 /// the new velocity. Velocities stand half a step before positions; it is the leapfrog scheme, of second order.
 struct symplectic_euler {
     /// Advances `count` particles from `first` on by one step.
-    /// \param pair_force pair_force(k, radius): sum of the pair forces on particle first + k
-    /// \param extra further forces of this step, or nullptr; per particle a record {F_x, F_y, torque, 0} in 2D, two
-    ///        records (force, torque) in 3D
+    /// \param pair_force pair_force(k): sum of the pair forces on particle first + k, torques over radius
+    /// \param extra further forces of this step, or nullptr; per particle a record {F_x, F_y, torque over radius, 0} in
+    ///        2D, two records (force, torque over radius) in 3D
     template <bool WithEnergy, class Damping, class Real, int Dim, class PairForce>
-    [[gnu::noinline]] static void advance(particle_store<Real, Dim>& store, std::size_t first, int count,
+    [[gnu::noinline, gnu::flatten]] static void advance(particle_store<Real, Dim>& store, std::size_t first, int count,
                                           Real time_step, PairForce const& pair_force,
                                           typename Damping::parameters const& damping,
                                           record_column<Real> const* extra, motion_report<Real>& report) {
         using rec = record<Real>;
-        rec const dt(time_step);
+        rec dt(time_step);
         rec path(time_step); // the fourth lane holds the radius
         path.v[3] = 0;
         rec fastest(Real(0)), poison(Real(0));
         for (int k = 0; k < count; ++k) {
             std::size_t const p = first + std::size_t(k);
-            rec const place = store.place()[p];
-            rec const velocity = store.velocities()[p];
+            rec place = store.place()[p];
+            rec velocity = store.velocities()[p];
             rec load = store.loads()[p];
             if constexpr (Dim == 2) {
-                rec force = pair_force(k, Real(place.v[3])) + load;
+                rec force = pair_force(k) + load;
                 if (extra) force += (*extra)[p];
-                rec const drag = Damping::particle_force(damping, force, velocity);
+                rec drag = Damping::particle_force(damping, force, velocity);
                 if constexpr (Damping::acts_on_particles) force += drag;
-                rec const next = velocity + force * store.inverse_masses()[p] * dt;
+                rec next = velocity + force * store.inverse_masses()[p] * dt;
                 store.velocities().set(p, next);
                 store.place().set(p, place + next * path);
-                rec const size = abs(next);
+                rec size = abs(next);
                 fastest = max(size, fastest);
                 poison += next * rec(Real(0));
                 if constexpr (WithEnergy) add_energy(store, p, velocity, next, load, force, drag, report);
             } else {
-                auto [force, torque] = pair_force(k, Real(place.v[3]));
+                auto [force, torque] = pair_force(k);
                 force += load;
                 if (extra) {
                     force += (*extra)[2 * p];
                     torque += (*extra)[2 * p + 1];
                 }
-                rec const drag = Damping::particle_force(damping, force, velocity);
+                rec drag = Damping::particle_force(damping, force, velocity);
                 if constexpr (Damping::acts_on_particles) force += drag;
-                rec const next = velocity + force * store.inverse_masses()[p] * dt;
+                rec next = velocity + force * store.inverse_masses()[p] * dt;
                 store.velocities().set(p, next);
                 store.place().set(p, place + next * path);
-                rec const spin = store.spins()[p];
+                rec spin = store.surface_speeds()[p];
                 if constexpr (Damping::acts_on_particles) torque += Damping::particle_force(damping, torque, spin);
-                rec const turned = spin + torque * store.inverse_inertias()[p] * dt;
-                store.spins().set(p, turned);
-                store.quaternions().set(p, turn(store.quaternions()[p], turned, time_step));
+                rec turned = spin + torque * store.inverse_rotary()[p] * dt;
+                store.surface_speeds().set(p, turned);
+                store.quaternions().set(p, turn(store.quaternions()[p], turned, time_step / store.radius(p)));
                 fastest = max(abs(next), fastest);
                 poison += (next + turned) * rec(Real(0));
                 if constexpr (WithEnergy) {
                     add_energy(store, p, velocity, next, load, force, drag, report);
-                    Real const inertia = store.moment_of_inertia(p);
+                    double const inertia = surface_inertia(store, p);
                     for (int axis = 0; axis < 3; ++axis)
-                        report.kinetic += 0.5 * double(inertia * spin[axis] * turned[axis]);
+                        report.kinetic += 0.5 * inertia * double(spin[axis]) * double(turned[axis]);
                 }
             }
         }
@@ -99,6 +99,12 @@ private:
         return r * record<Real>(Real(1) / std::sqrt(sum(r * r)));
     }
 
+    /// Moment of inertia as the surface speed sees it, I / r^2.
+    template <class Real, int Dim>
+    static double surface_inertia(particle_store<Real, Dim> const& store, std::size_t p) {
+        return double(store.moment_of_inertia(p)) / (double(store.radius(p)) * double(store.radius(p)));
+    }
+
     /// The kinetic energy at the time of the positions is the product of the velocities half a step before and
     /// after it: with it, and with work as mean force times displacement, a linear system's energy adds up to
     /// rounding in this scheme. A prescribed motion does the work that its reaction, minus the force, does.
@@ -109,7 +115,7 @@ private:
         for (int axis = 0; axis < 3; ++axis) {
             bool const turning = Dim == 2 && axis == 2;
             double const old_velocity = double(before[axis]), new_velocity = double(after[axis]);
-            double const inertia = double(turning ? store.moment_of_inertia(p) : store.mass(p));
+            double const inertia = turning ? surface_inertia(store, p) : double(store.mass(p));
             report.kinetic += 0.5 * inertia * old_velocity * new_velocity;
             bool const held = store.inverse_masses().at(p, axis) == Real(0);
             double const outside = held ? double(load[axis] - force[axis]) : double(load[axis]);

@@ -30,10 +30,12 @@ struct fixed_axes {
 
 /// The particles, as the step reads and writes them.
 ///
-/// Records of four numbers: 2D place {x, y, angle, radius}, velocity {v_x, v_y, spin, mass};
-/// 3D place {x, y, z, radius}, velocity {v_x, v_y, v_z, mass}, spin {w_x, w_y, w_z, 0}.
+/// Records of four numbers: 2D place {x, y, arc, radius}, velocity {v_x, v_y, surface speed, radius};
+/// 3D place {x, y, z, radius}, velocity {v_x, v_y, v_z, radius}, surface speed {r w_x, r w_y, r w_z, 0}.
+/// Rotations are kept as they appear at the surface: arc = radius times angle, surface speed = radius times spin.
+/// Then the relative motion of a pair is a sum and a difference of records, and torques enter over the radius.
 /// Particles are stored in an order of the library's choice (`internal` index); the order in which they were
-/// given is their stable `id`. In 2D the orientation is kept as an angle: eq. 8's unit vector is
+/// given is their stable `id`. In 2D the orientation is kept as an arc: eq. 8's unit vector is
 /// (cos angle, sin angle), which integrates eq. 8 exactly and is of unit length by construction.
 template <class Real, int Dim>
 class particle_store {
@@ -59,13 +61,14 @@ public:
         place_.resize(n + ghosts);
         velocity_.resize(n + ghosts);
         if constexpr (Dim == 3) {
-            spin_.resize(n + ghosts);
+            surface_speed_.resize(n + ghosts);
             quaternion_.assign(n, unit_quaternion());
-            inverse_inertia_.resize(n);
+            inverse_rotary_.resize(n);
         }
         load_.resize(n);
         inverse_mass_.resize(n);
         radius_.resize(n);
+        mass_.resize(n + ghosts, Real(1));
         inertia_.resize(n);
         material_.resize(n);
         for (std::size_t k = 0; k < n; ++k) {
@@ -89,14 +92,15 @@ public:
             material_[k] = material;
             for (int axis = 0; axis < Dim; ++axis) place_.at(k, axis) = packing.position[id][axis];
             place_.at(k, 3) = Real(r);
-            velocity_.at(k, 3) = Real(mass);
+            velocity_.at(k, 3) = Real(r);
+            mass_[k] = Real(mass);
             fix(k, {});
         }
         // Two particles that no real one ever meets: the partners that fill the last pack of a row of pairs.
         for (std::size_t g = 0; g < ghosts; ++g) {
             place_.at(n + g, 0) = Real(g);
             place_.at(n + g, 3) = Real(0.25);
-            velocity_.at(n + g, 3) = Real(1);
+            velocity_.at(n + g, 3) = Real(0.25);
         }
     }
 
@@ -110,19 +114,20 @@ public:
     point velocity(std::size_t k) const noexcept { return head(velocity_, k); }
     rotation spin(std::size_t k) const noexcept {
         if constexpr (Dim == 2)
-            return {velocity_.at(k, 2)};
+            return {velocity_.at(k, 2) / radius_[k]};
         else
-            return head(spin_, k);
+            return head(surface_speed_, k) / radius_[k];
     }
     Real radius(std::size_t k) const noexcept { return radius_[k]; }
-    Real mass(std::size_t k) const noexcept { return velocity_.at(k, 3); }
+    Real mass(std::size_t k) const noexcept { return mass_[k]; }
     Real moment_of_inertia(std::size_t k) const noexcept { return inertia_[k]; }
     int material(std::size_t k) const noexcept { return material_[k]; }
     /// Eq. 8's unit vector e (2D).
     vec<Real, 2> orientation(std::size_t k) const noexcept
         requires(Dim == 2)
     {
-        return {std::cos(place_.at(k, 2)), std::sin(place_.at(k, 2))};
+        Real const angle = place_.at(k, 2) / radius_[k];
+        return {std::cos(angle), std::sin(angle)};
     }
     /// Unit quaternion {w, x, y, z} (3D).
     vec<Real, 4> orientation(std::size_t k) const noexcept
@@ -130,41 +135,41 @@ public:
     {
         return {quaternion_.at(k, 0), quaternion_.at(k, 1), quaternion_.at(k, 2), quaternion_.at(k, 3)};
     }
-    /// Load applied from outside: force in N, then torque in N m.
+    /// Force applied from outside, N.
     point applied_force(std::size_t k) const noexcept { return head(load_, k); }
 
     void set_position(std::size_t k, point const& x) noexcept { set_head(place_, k, x); }
     void set_velocity(std::size_t k, point const& v) noexcept { set_head(velocity_, k, v); }
     void set_spin(std::size_t k, rotation const& w) noexcept {
         if constexpr (Dim == 2)
-            velocity_.at(k, 2) = w[0];
+            velocity_.at(k, 2) = w[0] * radius_[k];
         else
-            set_head(spin_, k, w);
+            set_head(surface_speed_, k, w * radius_[k]);
     }
     void set_applied_force(std::size_t k, point const& force) noexcept { set_head(load_, k, force); }
     void set_applied_torque(std::size_t k, Real torque) noexcept
         requires(Dim == 2)
     {
-        load_.at(k, 2) = torque;
+        load_.at(k, 2) = torque / radius_[k];
     }
     /// Prescribes the motion along the given axes: there the particle keeps the velocity it has or is given.
     void fix(std::size_t k, fixed_axes const& axes) noexcept {
         bool const held[3] = {axes.x, axes.y, axes.z};
         for (int axis = 0; axis < Dim; ++axis)
             inverse_mass_.at(k, axis) = held[axis] ? Real(0) : Real(1) / mass(k);
-        Real const turn = axes.rotation ? Real(0) : Real(1) / inertia_[k];
+        // Torque over radius to acceleration of the surface.
+        Real const turn = axes.rotation ? Real(0) : radius_[k] * radius_[k] / inertia_[k];
         if constexpr (Dim == 2) {
             inverse_mass_.at(k, 2) = turn;
         } else {
-            for (int axis = 0; axis < 3; ++axis) inverse_inertia_.at(k, axis) = turn;
+            for (int axis = 0; axis < 3; ++axis) inverse_rotary_.at(k, axis) = turn;
         }
     }
     /// Inverse of mass along `axis` (0 where fixed), of the moment of inertia for axis == Dim; in 1/kg, 1/(kg m^2).
     Real mobility(std::size_t k, int axis) const noexcept {
-        if constexpr (Dim == 2)
-            return inverse_mass_.at(k, axis);
-        else
-            return axis < 3 ? inverse_mass_.at(k, axis) : inverse_inertia_.at(k, 0);
+        if (axis < Dim) return inverse_mass_.at(k, axis);
+        bool const held = (Dim == 2 ? inverse_mass_.at(k, 2) : inverse_rotary_.at(k, 0)) == Real(0);
+        return held ? Real(0) : Real(1) / inertia_[k];
     }
     /// \}
 
@@ -176,12 +181,15 @@ public:
     record_column<Real> const& place() const noexcept { return place_; }
     record_column<Real>& velocities() noexcept { return velocity_; }
     record_column<Real> const& velocities() const noexcept { return velocity_; }
-    record_column<Real>& spins() noexcept { return spin_; }
-    record_column<Real> const& spins() const noexcept { return spin_; }
+    record_column<Real>& surface_speeds() noexcept { return surface_speed_; }
+    record_column<Real> const& surface_speeds() const noexcept { return surface_speed_; }
     record_column<Real>& quaternions() noexcept { return quaternion_; }
     record_column<Real> const& loads() const noexcept { return load_; }
     record_column<Real> const& inverse_masses() const noexcept { return inverse_mass_; }
-    record_column<Real> const& inverse_inertias() const noexcept { return inverse_inertia_; }
+    /// 3D: from torque over radius to acceleration of the surface, r^2 / I, 1/kg. In 2D lane 2 of inverse_masses().
+    record_column<Real> const& inverse_rotary() const noexcept { return inverse_rotary_; }
+    /// Masses, those of the ghosts included, kg.
+    Real const* masses() const noexcept { return mass_.data(); }
     /// Internal index of the two partners that fill incomplete packs of pairs.
     std::int32_t ghost(int which) const noexcept { return std::int32_t(size()) + which; }
     /// \}
@@ -205,8 +213,8 @@ private:
 
     std::vector<std::int32_t> id_, internal_;
     std::vector<int> material_;
-    std::vector<Real> radius_, inertia_;
-    record_column<Real> place_, velocity_, spin_, quaternion_, load_, inverse_mass_, inverse_inertia_;
+    std::vector<Real> radius_, mass_, inertia_;
+    record_column<Real> place_, velocity_, surface_speed_, quaternion_, load_, inverse_mass_, inverse_rotary_;
 };
 
 } // namespace lacuna
