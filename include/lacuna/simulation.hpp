@@ -299,9 +299,10 @@ private:
     void move(int chunk, real dt, record_column<real> const* extra) {
         std::size_t const first = std::size_t(chunk) * interactions_type::chunk_particles;
         int const count = int(std::min(store_.size() - first, std::size_t(interactions_type::chunk_particles)));
-        Model::integrator::template advance<WithEnergy, damping_type>(store_, first, count, dt,
-                                                                      interactions_.forces_on(chunk), parameters_.damping,
-                                                                      extra, reports_[std::size_t(chunk)]);
+        interactions_.with_forces_on(chunk, [&](auto const& pair_force) {
+            Model::integrator::template advance<WithEnergy, damping_type>(
+                store_, first, count, dt, pair_force, parameters_.damping, extra, reports_[std::size_t(chunk)]);
+        });
     }
 
     void add_further_forces(real dt, real moved_for) {

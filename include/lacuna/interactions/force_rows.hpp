@@ -18,6 +18,9 @@ template <class Real, int Dim>
 class force_rows {
 public:
     static constexpr int chunk_particles = 128;
+    /// Added to the offset of a force in the entry of the particle that it acts on as it stands (the first of the
+    /// pair); the other one gets the opposite.
+    static constexpr std::int32_t own = Dim == 2 ? 2 : 3;
     static constexpr std::int32_t reals_per_pair = std::int32_t(4 * pair_forces<Real, Dim>::records_per_pair);
 
     /// \param tables the pair tables whose forces lie one after the other in the force column, then one zero
@@ -47,7 +50,7 @@ public:
             row_[c] = *std::max_element(first, first + chunk_particles);
             begin_[c + 1] = begin_[c] + std::size_t(row_[c]) * chunk_particles;
         }
-        entry_.assign(begin_[chunks], zero * 2);
+        entry_.assign(begin_[chunks], zero);
         std::fill(degree_.begin(), degree_.end(), 0);
         auto const put = [&](std::int32_t k, std::int32_t value) {
             std::size_t const c = std::size_t(k) / chunk_particles;
@@ -55,15 +58,16 @@ public:
                    std::size_t(degree_[std::size_t(k)]++)] = value;
         };
         for_each([&](std::int32_t i, std::int32_t j, std::int32_t offset) {
-            put(i, 2 * offset);
-            put(j, 2 * offset + 1);
+            put(i, offset + own);
+            put(j, offset);
         });
     }
 
     int chunks() const noexcept { return int(row_.size()); }
     /// Entries per particle in a chunk.
     int row_length(int chunk) const noexcept { return row_[std::size_t(chunk)]; }
-    /// Entries of the first particle of a chunk; the others follow. Entry = 2 * offset of the force + side.
+    /// Entries of the first particle of a chunk; the others follow. Entry = offset of the force, a multiple of four,
+    /// plus `own` for the first of the pair.
     std::int32_t const* rows(int chunk) const noexcept { return entry_.data() + begin_[std::size_t(chunk)]; }
 
 private:
@@ -72,20 +76,20 @@ private:
 };
 
 /// Sum of the pair forces on the particles of one chunk.
-template <class Real, int Dim>
+/// \tparam Length entries per particle where it is known at compile time, else 0
+template <class Real, int Dim, int Length = 0>
 class force_sum {
 public:
     using rec = record<Real>;
     force_sum(force_rows<Real, Dim> const& rows, Real const* forces, int chunk) noexcept
-        : forces_(forces), row_(rows.rows(chunk)), length_(rows.row_length(chunk)) {}
+        : forces_(forces), row_(rows.rows(chunk)), length_(Length > 0 ? Length : rows.row_length(chunk)) {}
 
     /// 2D: {F_x, F_y, torque over radius, 0} on particle number `k` of the chunk.
     rec operator()(int k) const noexcept
         requires(Dim == 2)
     {
         rec total(Real(0));
-        std::int32_t const* entry = row_ + std::ptrdiff_t(k) * length_;
-        for (int e = 0; e < length_; ++e) total += rec::load(forces_ + (entry[e] >> 1)) * sign(entry[e] & 1);
+        for_each(k, [&](std::int32_t offset, rec const& sign) { total = rec::load(forces_ + offset) * sign + total; });
         return total;
     }
     /// 3D: force, and torque over radius, on particle number `k` of the chunk.
@@ -93,20 +97,30 @@ public:
         requires(Dim == 3)
     {
         rec force(Real(0)), torque(Real(0));
-        std::int32_t const* entry = row_ + std::ptrdiff_t(k) * length_;
-        for (int e = 0; e < length_; ++e) {
-            force += rec::load(forces_ + (entry[e] >> 1)) * sign(entry[e] & 1);
-            torque += rec::load(forces_ + (entry[e] >> 1) + 4);
-        }
+        for_each(k, [&](std::int32_t offset, rec const& sign) {
+            force = rec::load(forces_ + offset) * sign + force;
+            torque += rec::load(forces_ + offset + 4);
+        });
         return {force, torque};
     }
 
 private:
-    // Forces are opposite on the two sides of a pair, torques per radius are equal.
-    static rec sign(int side) noexcept {
-        alignas(32) static constexpr Real table[2][4] = {{1, 1, 1, 1}, {-1, -1, Dim == 2 ? Real(1) : Real(-1), 1}};
-        return rec::load(table[side]);
+    template <class Add>
+    void for_each(int k, Add const& add) const noexcept {
+        std::int32_t const* entry = row_ + std::ptrdiff_t(k) * length_;
+        auto one = [&](int e) { add(entry[e] & ~3, rec::load(&signs[entry[e] & 3])); };
+        if constexpr (Length > 0) {
+#pragma GCC unroll 8
+            for (int e = 0; e < Length; ++e) one(e);
+        } else {
+            for (int e = 0; e < length_; ++e) one(e);
+        }
     }
+
+    // Forces are opposite on the two sides of a pair, torques per radius are equal. Read from 0 on, the signs are
+    // those of the second of a pair; from `own` on, those of the first.
+    static constexpr Real minus = Dim == 2 ? Real(1) : Real(-1);
+    static constexpr Real signs[7] = {-1, -1, minus, 1, 1, 1, 1};
     Real const* forces_;
     std::int32_t const* row_;
     int length_;

@@ -115,9 +115,18 @@ public:
                 contacts_, chunk, contact_parameters_, damping_, store, time_step, forces_.of(bonds_.slots()), energy[1],
                 [&](std::size_t pack) { note_deep_overlap(store, chunk, pack); });
     }
-    /// Sum of pair forces on the particles of a chunk, once all pairs that concern them are evaluated: those of
-    /// the chunks up to and including this one, because a pair belongs to its lower-numbered particle.
-    force_sum<Real, Dim> forces_on(int chunk) const noexcept { return {rows_, forces_.of(0), chunk}; }
+    /// Calls use(sum) with the sum of pair forces on the particles of a chunk, once all pairs that concern them are
+    /// evaluated: those of the chunks up to and including this one, because a pair belongs to its lower-numbered
+    /// particle. The usual numbers of pairs per particle have a loop of their own, of fixed length.
+    template <class Use>
+    void with_forces_on(int chunk, Use const& use) const {
+        switch (rows_.row_length(chunk)) {
+        case 6: return use(force_sum<Real, Dim, 6>(rows_, forces_.of(0), chunk));
+        case 7: return use(force_sum<Real, Dim, 7>(rows_, forces_.of(0), chunk));
+        case 8: return use(force_sum<Real, Dim, 8>(rows_, forces_.of(0), chunk));
+        default: return use(force_sum<Real, Dim>(rows_, forces_.of(0), chunk));
+        }
+    }
 
     /// Failures of the step just evaluated, in the order of the pairs; to be completed with step and time.
     std::span<break_event<Dim> const> collect_events() {

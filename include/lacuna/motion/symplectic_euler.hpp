@@ -68,7 +68,8 @@ struct symplectic_euler {
                 store.velocities().set(p, next);
                 store.place().set(p, place + next * path);
                 rec spin = store.surface_speeds()[p];
-                if constexpr (Damping::acts_on_particles) torque += Damping::particle_force(damping, torque, spin);
+                rec brake = Damping::particle_force(damping, torque, spin);
+                if constexpr (Damping::acts_on_particles) torque += brake;
                 rec turned = spin + torque * store.inverse_rotary()[p] * dt;
                 store.surface_speeds().set(p, turned);
                 store.quaternions().set(p, turn(store.quaternions()[p], turned, time_step / store.radius(p)));
@@ -76,9 +77,9 @@ struct symplectic_euler {
                 poison += (next + turned) * rec(Real(0));
                 if constexpr (WithEnergy) {
                     add_energy(store, p, velocity, next, load, force, drag, report);
-                    double const inertia = surface_inertia(store, p);
                     for (int axis = 0; axis < 3; ++axis)
-                        report.kinetic += 0.5 * inertia * double(spin[axis]) * double(turned[axis]);
+                        add_freedom(surface_inertia(store, p), store.inverse_rotary().at(p, axis) == Real(0), spin[axis],
+                                    turned[axis], 0.0, torque[axis], brake[axis], report);
                 }
             }
         }
@@ -114,16 +115,21 @@ private:
                            motion_report<Real>& report) {
         for (int axis = 0; axis < 3; ++axis) {
             bool const turning = Dim == 2 && axis == 2;
-            double const old_velocity = double(before[axis]), new_velocity = double(after[axis]);
-            double const inertia = turning ? surface_inertia(store, p) : double(store.mass(p));
-            report.kinetic += 0.5 * inertia * old_velocity * new_velocity;
-            bool const held = store.inverse_masses().at(p, axis) == Real(0);
-            double const outside = held ? double(load[axis] - force[axis]) : double(load[axis]);
-            report.load_before += outside * old_velocity;
-            report.load_after += outside * new_velocity;
-            report.damping_before += double(drag[axis]) * old_velocity;
-            report.damping_after += double(drag[axis]) * new_velocity;
+            add_freedom(turning ? surface_inertia(store, p) : double(store.mass(p)),
+                        store.inverse_masses().at(p, axis) == Real(0), before[axis], after[axis], load[axis], force[axis],
+                        drag[axis], report);
         }
+    }
+
+    template <class Real>
+    static void add_freedom(double inertia, bool held, double before, double after, double load, double force,
+                            double drag, motion_report<Real>& report) {
+        double const outside = held ? load - force : load;
+        report.kinetic += 0.5 * inertia * before * after;
+        report.load_before += outside * before;
+        report.load_after += outside * after;
+        report.damping_before += drag * before;
+        report.damping_after += drag * after;
     }
 };
 
