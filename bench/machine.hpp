@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdio>
+#include <memory>
+#include <string>
+
+/// \file
+/// What a figure must say of the program and the machine that made it.
+
+#ifndef LACUNA_BENCH_COMMIT
+#define LACUNA_BENCH_COMMIT "unknown"
+#endif
+#ifndef LACUNA_BENCH_COMPILER
+#define LACUNA_BENCH_COMPILER __VERSION__
+#endif
+#ifndef LACUNA_BENCH_FLAGS
+#define LACUNA_BENCH_FLAGS "unknown"
+#endif
+
+namespace bench {
+
+/// Name of the processor, as Linux has it; "unknown" elsewhere.
+inline std::string cpu_name() {
+    std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen("/proc/cpuinfo", "r"), [](std::FILE* f) {
+        return f ? std::fclose(f) : 0;
+    });
+    char line[256];
+    while (file && std::fgets(line, sizeof line, file.get())) {
+        std::string const text = line;
+        auto const colon = text.find(": ");
+        if (text.rfind("model name", 0) == 0 && colon != std::string::npos)
+            return text.substr(colon + 2, text.size() - colon - 3);
+    }
+    return "unknown";
+}
+
+} // namespace bench
