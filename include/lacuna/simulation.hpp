@@ -126,12 +126,14 @@ public:
     /// Gives a particle a velocity, m/s; the ledger books the kinetic energy as work from outside.
     void set_velocity(std::size_t id, point const& v) {
         auto const k = internal(id);
+        kicked_.push_back({k, store_.velocity(k), store_.spin(k)});
         book_work(0.5 * double(store_.mass(k)) * (squared_norm(v) - squared_norm(widen(store_.velocity(k)))));
         store_.set_velocity(k, narrow(v));
     }
     /// Gives a particle a spin, rad/s; the ledger books the kinetic energy as work from outside.
     void set_spin(std::size_t id, vec<double, rotation_dim<dim>> const& w) {
         auto const k = internal(id);
+        kicked_.push_back({k, store_.velocity(k), store_.spin(k)});
         book_work(0.5 * double(store_.moment_of_inertia(k)) * (squared_norm(w) - squared_norm(widen(store_.spin(k)))));
         store_.set_spin(k, narrow(w));
     }
@@ -260,9 +262,6 @@ private:
     void take_step() {
         settle_time_step();
         auto const dt = real(*time_step_);
-        // The slip of a step is that of the motion before it: in the first step there was none, whatever the
-        // velocities are by now.
-        auto const moved_for = step_ == 0 ? real(0) : dt;
         if (interactions_.update(store_, moved_)) {
             update_walls();
             skip_idle_throats();
@@ -272,17 +271,21 @@ private:
 
         int const chunks = interactions_.chunks();
         bool const further_forces = flow_.has_value() || !walls_.empty();
-        if (!further_forces && parameters_.threads == 1) {
+        if (!further_forces && parameters_.threads == 1 && kicked_.empty()) {
             // A particle's pairs belong to it and to lower-numbered ones: once the pairs of a chunk are evaluated,
             // nothing reads its particles again, and they can move while they are in the cache.
             for (int c = 0; c < chunks; ++c) {
-                interactions_.template evaluate<WithEnergy>(store_, c, moved_for);
+                interactions_.template evaluate<WithEnergy>(store_, c, dt);
                 move<WithEnergy>(c, dt, nullptr);
             }
         } else {
+            // The slip of a step is that of the motion before it, which was not at velocities given since.
+            std::for_each(kicked_.rbegin(), kicked_.rend(), [&](kick& k) { exchange(k); });
             for_each_chunk(chunks, parameters_.threads,
-                           [&](int c) { interactions_.template evaluate<WithEnergy>(store_, c, moved_for); });
-            if (further_forces) add_further_forces(dt, moved_for);
+                           [&](int c) { interactions_.template evaluate<WithEnergy>(store_, c, dt); });
+            if (further_forces) add_further_forces(dt);
+            for (auto& k : kicked_) exchange(k);
+            kicked_.clear();
             for_each_chunk(chunks, parameters_.threads,
                            [&](int c) { move<WithEnergy>(c, dt, further_forces ? &extra_ : nullptr); });
         }
@@ -295,6 +298,19 @@ private:
         ++step_;
     }
 
+    /// What a particle's velocities were before they were given new ones between two steps.
+    struct kick {
+        std::size_t particle;
+        vec<real, dim> velocity;
+        vec<real, rotation_dim<dim>> spin;
+    };
+    void exchange(kick& k) {
+        auto const now = kick{k.particle, store_.velocity(k.particle), store_.spin(k.particle)};
+        store_.set_velocity(k.particle, k.velocity);
+        store_.set_spin(k.particle, k.spin);
+        k = now;
+    }
+
     template <bool WithEnergy>
     void move(int chunk, real dt, record_column<real> const* extra) {
         std::size_t const first = std::size_t(chunk) * interactions_type::chunk_particles;
@@ -305,10 +321,10 @@ private:
         });
     }
 
-    void add_further_forces(real dt, real moved_for) {
+    void add_further_forces(real dt) {
         std::fill(extra_.data(), extra_.data() + 4 * extra_.size(), real(0));
         if (!walls_.empty()) {
-            auto const beyond = walls_.evaluate(store_, moved_for, parameters_.damping, extra_, wall_energy_);
+            auto const beyond = walls_.evaluate(store_, dt, parameters_.damping, extra_, wall_energy_);
             if (beyond >= 0) throw_unstable(beyond, "its centre is beyond a wall", "the load or speed is too high for the stiffness of the wall");
         }
         if constexpr (has_fluid<Model>)
@@ -554,6 +570,7 @@ private:
     record_column<real> extra_;
     std::vector<motion_report<real>> reports_;
     std::vector<event_type> events_;
+    std::vector<kick> kicked_;
     energy_ledger ledger_;
     double work_ahead_ = 0, damping_ahead_ = 0;
     bool ledger_open_ = false;
