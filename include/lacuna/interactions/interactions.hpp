@@ -6,9 +6,11 @@
 #include <string>
 #include <vector>
 
-#include <lacuna/interactions/break_event.hpp>
+#include <lacuna/interactions/bond_failure.hpp>
+#include <lacuna/interactions/bond_list.hpp>
 #include <lacuna/interactions/force_rows.hpp>
 #include <lacuna/interactions/law_stiffness.hpp>
+#include <lacuna/interactions/interaction_parameters.hpp>
 #include <lacuna/interactions/pair_loop.hpp>
 #include <lacuna/laws/damping.hpp>
 #include <lacuna/laws/no_contact.hpp>
@@ -16,20 +18,6 @@
 #include <lacuna/particles/material.hpp>
 
 namespace lacuna {
-
-/// Settings of the pair interactions.
-struct interaction_parameters {
-    /// Verlet skin over the mean radius, 1: how far particles move, together, before candidates are sought anew.
-    double skin = 0.1;
-    /// Pairs whose gap or overlap in the initial packing is below this fraction of the smaller radius start as
-    /// touching at zero force, at the distance they have (MODEL.md section 3); 0: every overlap is a force.
-    double initial_contact_tolerance = 0;
-
-    void validate(std::string const& name) const {
-        require_not_negative(name + ".skin", skin);
-        require_in(name + ".initial_contact_tolerance", initial_contact_tolerance, 0, 0.5);
-    }
-};
 
 /// Bonds and contacts: their tables, histories, forces, and the hand-over from bond to contact.
 template <class Real, int Dim, contact_law<Dim> ContactLaw, bond_law<Dim> BondLaw, damping_policy Damping,
@@ -41,13 +29,6 @@ public:
     using bond_table = pair_table<BondLaw, Real, Dim>;
     using material = material_of<ContactLaw, BondLaw>;
     static constexpr int chunk_particles = contact_table::chunk_particles;
-
-    /// What is kept of a bond for good.
-    struct bond_record {
-        std::array<std::int32_t, 2> particles; ///< stable ids
-        bond_state state = bond_state::intact;
-        std::int32_t slot = -1; ///< place in the bond table while intact
-    };
 
     interactions() = default;
     /// \throws std::invalid_argument for bonds between unknown, equal or already bonded particles
@@ -61,7 +42,9 @@ public:
                 bond_parameters_.add(BondLaw::combine(a.bond, b.bond, thickness));
             }
         Real gap = 0;
-        add_bonds(store, bonds, gap);
+        bond_entries_ = make_bonds<BondLaw, bond_entry>(
+            store, bonds, [&](std::int32_t i, std::int32_t j) { return parameter_row(store, i, j); }, gap);
+        for (auto const& pair : bonds) bond_records_.push_back({pair});
         double mean = 0, largest = 0;
         for (Real const r : store.radii()) {
             mean += double(r) / double(store.size());
@@ -172,9 +155,9 @@ public:
     /// Stiffnesses in N/m are the laws' own derivatives.
     template <class Visit>
     void for_each_stiffness(store_type const& store, Visit const& visit) const {
-        if constexpr (!is_absent<BondLaw>) visit_stiffness<BondLaw>(store, bonds_, bond_parameters_, 0, true, visit);
+        if constexpr (!is_absent<BondLaw>) visit_stiffness<BondLaw>(store, bonds_, bond_parameters_, forces_.of(0), true, visit);
         if constexpr (!is_absent<ContactLaw>)
-            visit_stiffness<ContactLaw>(store, contacts_, contact_parameters_, bonds_.slots(), false, visit);
+            visit_stiffness<ContactLaw>(store, contacts_, contact_parameters_, forces_.of(bonds_.slots()), false, visit);
     }
 
     /// Slot of the pair (i, j), internal indices in any order: bonds first, then contacts; -1 if it is in neither.
@@ -198,57 +181,8 @@ public:
 private:
     using contact_entry = typename contact_table::entry;
     using bond_entry = typename bond_table::entry;
-    struct pending_event {
-        break_event<Dim> event;
-        contact_entry contact;
-        double released;
-    };
+    using pending_event = bond_failure<contact_entry, Dim>;
 
-    template <class Law, class Table, class Visit>
-    void visit_stiffness(store_type const& store, Table const& table, parameter_table<Law, Real> const& parameters,
-                         std::size_t first_slot, bool bonded, Visit const& visit) const {
-        for (std::size_t s = 0; s < table.slots(); ++s) {
-            if (table.is_filler(s, store.size())) continue;
-            auto const i = std::size_t(table.i(s)), j = std::size_t(table.j(s));
-            vec<double, Dim> arm{};
-            for (int axis = 0; axis < Dim; ++axis)
-                arm[axis] = double(store.position(j)[axis]) - double(store.position(i)[axis]);
-            double const distance = norm(arm), ri = double(store.radius(i)), rj = double(store.radius(j));
-            auto const k = law_stiffness<Law, Dim>(parameters.row[std::size_t(table.parameter()[s])], distance, ri, rj,
-                                                   bonded);
-            Real const* force = forces_.of(first_slot + s);
-            double squared = 0;
-            for (int axis = 0; axis < Dim; ++axis) squared += double(force[axis]) * double(force[axis]);
-            visit(i, j, arm / distance, k.normal, k.shear, std::sqrt(squared) / distance, distance * ri / (ri + rj),
-                  distance * rj / (ri + rj));
-        }
-    }
-
-    void add_bonds(store_type const& store, std::span<std::array<std::int32_t, 2> const> bonds, Real& gap) {
-        for (std::size_t b = 0; b < bonds.size(); ++b) {
-            std::string const name = "bond " + std::to_string(b);
-            for (auto const id : bonds[b]) require_in(name + ".particle", id, 0, double(store.size()) - 1);
-            if (bonds[b][0] == bonds[b][1]) refuse(name + ".particles", double(bonds[b][0]), "two different ones");
-            auto i = store.internal(std::size_t(bonds[b][0])), j = store.internal(std::size_t(bonds[b][1]));
-            if (i > j) std::swap(i, j);
-            Real const touching = store.radius(std::size_t(i)) + store.radius(std::size_t(j));
-            Real const distance = norm(store.position(std::size_t(j)) - store.position(std::size_t(i)));
-            if (!(distance > 0)) refuse(name + ".distance", double(distance), "> 0");
-            gap = std::max(gap, distance - touching);
-            bond_records_.push_back({bonds[b]});
-            bond_entries_.push_back({i, j, parameter_row(store, i, j), std::int32_t(b),
-                                     BondLaw::template initial<Real, Dim>(distance, touching)});
-        }
-        std::sort(bond_entries_.begin(), bond_entries_.end(), before<bond_entry>);
-        for (std::size_t b = 1; b < bond_entries_.size(); ++b)
-            if (!before(bond_entries_[b - 1], bond_entries_[b]))
-                refuse("bond " + std::to_string(bond_entries_[b].label), "a repeated pair", "given once");
-    }
-
-    template <class Entry>
-    static bool before(Entry const& a, Entry const& b) noexcept {
-        return a.i < b.i || (a.i == b.i && a.j < b.j);
-    }
     std::int32_t parameter_row(store_type const& store, std::int32_t i, std::int32_t j) const noexcept {
         return store.material(std::size_t(i)) * materials_ + store.material(std::size_t(j));
     }
@@ -264,7 +198,7 @@ private:
         if constexpr (!is_absent<ContactLaw>) {
             take_entries(contacts_, store.size(), old_contacts_);
             old_contacts_.insert(old_contacts_.end(), broken_.begin(), broken_.end());
-            if (!broken_.empty()) std::sort(old_contacts_.begin(), old_contacts_.end(), before<contact_entry>);
+            if (!broken_.empty()) std::sort(old_contacts_.begin(), old_contacts_.end(), pair_before<contact_entry>);
             merge_contacts(store, first);
             contacts_.assign(new_contacts_, store.size(), store.ghost(0), store.ghost(1));
         }
@@ -321,55 +255,17 @@ private:
         }
     }
 
-    /// The bonds of one pack that have just failed: their event, the contact that takes over, and its force.
     [[gnu::noinline]] void break_bonds(store_type const& store, int chunk, std::size_t pack, Real time_step) {
         for (std::size_t s = pack * bond_table::width; s < (pack + 1) * bond_table::width; ++s) {
             if (bonds_.is_filler(s, store.size())) continue;
-            // The loop has already written the new history: read the step without its slip.
-            bond_entry const e = bonds_.get(s);
-            auto const i = load_body(store, std::size_t(e.i)), j = load_body(store, std::size_t(e.j));
-            auto frame = relative_motion(i, j, time_step);
-            auto const slip = frame.motion.slip;
-            frame.motion.slip = {};
-            auto const answer = BondLaw::evaluate(bond_parameters_.row[std::size_t(e.parameter)], frame.motion, e.state);
-            if (!answer.broken) continue;
-
-            auto const& law = contact_parameters_.row[std::size_t(parameter_row(store, e.i, e.j))];
-            Real const touching = frame.motion.touching_distance();
-            auto state = ContactLaw::template initial<Real, Dim>(std::min(frame.motion.distance, touching), touching);
-            if (!answer.broken_in_tension)
-                state = ContactLaw::hand_over(law, frame.motion, answer.normal_force, answer.shear_force);
-            auto const contact = ContactLaw::evaluate(law, frame.motion, state);
-            store_body_force(forces_.of(s), frame.force(contact.normal_force, contact.shear_force),
-                             frame.torque_per_radius(contact.shear_force));
-
-            pending_event p{};
-            p.event.bond = e.label;
-            p.event.particles = {store.id(std::size_t(e.i)), store.id(std::size_t(e.j))};
-            p.event.mode = answer.broken_in_tension ? bond_state::broken_in_tension : bond_state::broken_in_shear;
-            for (int axis = 0; axis < Dim; ++axis)
-                p.event.position[axis] =
-                    double(i.position[axis] + frame.normal[axis] * (frame.lever * i.radius));
-            p.event.normal_force = double(answer.normal_force);
-            p.event.shear_force = Dim == 2 ? double(answer.shear_force[0]) : double(norm(answer.shear_force));
-            p.event.energy = double(answer.stored_energy);
-            // The integrator sees the mean of old and new force over the step: what the springs lose to the
-            // failure is the stored energy less the work that the missing force would have done.
-            p.released = double(answer.stored_energy - contact.stored_energy) -
-                         0.5 * double((answer.normal_force - contact.normal_force) * frame.motion.normal_rate * time_step) -
-                         0.5 * double(dot(answer.shear_force - contact.shear_force, slip));
-            p.contact = {e.i, e.j, parameter_row(store, e.i, e.j), -1, contact.history};
-            energy_[std::size_t(chunk)][2].stored += double(contact.stored_energy);
-            energy_[std::size_t(chunk)][2].stored -= double(answer.stored_energy);
-            chunk_events_[std::size_t(chunk)].push_back(p);
-        }
-    }
-
-    static void store_body_force(Real* to, vec<Real, Dim> const& force, vec<Real, rotation_dim<Dim>> const& torque) {
-        if constexpr (Dim == 2) {
-            to[0] = force[0], to[1] = force[1], to[2] = torque[0];
-        } else {
-            for (int axis = 0; axis < 3; ++axis) to[axis] = force[axis], to[4 + axis] = torque[axis];
+            bond_entry const bond = bonds_.get(s);
+            std::int32_t const row = parameter_row(store, bond.i, bond.j);
+            auto const failed = fail_bond<BondLaw, ContactLaw>(
+                store, bond, bond_parameters_.row[std::size_t(bond.parameter)],
+                contact_parameters_.row[std::size_t(row)], row, time_step, forces_.of(s));
+            if (!failed) continue;
+            energy_[std::size_t(chunk)][2].stored += failed->stored;
+            chunk_events_[std::size_t(chunk)].push_back(*failed);
         }
     }
 

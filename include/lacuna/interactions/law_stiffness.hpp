@@ -6,6 +6,7 @@
 
 #include <lacuna/core/dual.hpp>
 #include <lacuna/core/fields.hpp>
+#include <lacuna/interactions/pair_loop.hpp>
 #include <lacuna/laws/pair_motion.hpp>
 
 namespace lacuna {
@@ -39,6 +40,29 @@ pair_stiffness law_stiffness(typename Law::template parameters<Real> const& para
         std::max(std::fabs(answer.normal_force.derivative[1]), std::fabs(answer.shear_force[0].derivative[0]));
     return {std::fabs(answer.normal_force.derivative[0]) + coupling,
             std::fabs(answer.shear_force[0].derivative[1]) + coupling};
+}
+
+/// Calls visit(i, j, normal, normal_stiffness, shear_stiffness, prestress, lever_i, lever_j) for every pair of a
+/// table; the prestress is the pair's force over its distance. N/m, m.
+/// \param forces of the table's first slot, as last evaluated
+/// \param bonded see law_stiffness()
+template <class Law, class Real, int Dim, class Visit>
+void visit_stiffness(particle_store<Real, Dim> const& store, pair_table<Law, Real, Dim> const& table,
+                     parameter_table<Law, Real> const& parameters, Real const* forces, bool bonded, Visit const& visit) {
+    for (std::size_t s = 0; s < table.slots(); ++s) {
+        if (table.is_filler(s, store.size())) continue;
+        auto const i = std::size_t(table.i(s)), j = std::size_t(table.j(s));
+        vec<double, Dim> arm{};
+        for (int axis = 0; axis < Dim; ++axis)
+            arm[axis] = double(store.position(j)[axis]) - double(store.position(i)[axis]);
+        double const distance = norm(arm), ri = double(store.radius(i)), rj = double(store.radius(j));
+        auto const k = law_stiffness<Law, Dim>(parameters.row[std::size_t(table.parameter()[s])], distance, ri, rj, bonded);
+        Real const* force = forces + 4 * pair_forces<Real, Dim>::records_per_pair * s;
+        double squared = 0;
+        for (int axis = 0; axis < Dim; ++axis) squared += double(force[axis]) * double(force[axis]);
+        visit(i, j, arm / distance, k.normal, k.shear, std::sqrt(squared) / distance, distance * ri / (ri + rj),
+              distance * rj / (ri + rj));
+    }
 }
 
 } // namespace lacuna

@@ -43,7 +43,8 @@ struct pair_energy {
     double damped = 0;     ///< taken out by dashpots in this step
 };
 
-/// Forces of pairs, one record (2D: F_x, F_y, torque per radius, 0) or two (3D: force; torque per radius) each.
+/// Forces of pairs, one record (2D: F_x, F_y, torque per radius, normal force) or two (3D: force and normal force;
+/// torque per radius and 0) each.
 template <class Real, int Dim>
 struct pair_forces {
     static constexpr std::size_t records_per_pair = Dim == 2 ? 1 : 2;
@@ -95,18 +96,27 @@ body<Real, Dim> load_body(particle_store<Real, Dim> const& store, std::size_t k)
     return {store.position(k), store.velocity(k), store.spin(k), Real(store.place().at(k, 3)), store.mass(k)};
 }
 
-/// Writes the pair forces of one pack.
+/// Writes the force record of one pair. Its fourth number, which no sum of forces reads, is the normal force: what
+/// the apertures of throats depend on.
+template <class Real, int Dim>
+void store_pair_force(Real* to, vec<Real, Dim> const& force, vec<Real, rotation_dim<Dim>> const& torque,
+                      Real normal_force) noexcept {
+    for (int axis = 0; axis < Dim; ++axis) to[axis] = force[axis];
+    for (int axis = 0; axis < rotation_dim<Dim>; ++axis) to[Dim == 2 ? 2 : 4 + axis] = torque[axis];
+    to[3] = normal_force;
+}
+/// The same for one pack.
 template <class Real, int Dim, class Lanes>
-void store_pair_forces(Real* to, vec<Lanes, Dim> const& force, vec<Lanes, rotation_dim<Dim>> const& torque) noexcept {
+void store_pair_forces(Real* to, vec<Lanes, Dim> const& force, vec<Lanes, rotation_dim<Dim>> const& torque,
+                       Lanes const& normal_force) noexcept {
     if constexpr (Dim == 2) {
-        store_turned<Real, Lanes::width>(to, {force[0], force[1], torque[0], Lanes(Real(0))});
+        store_turned<Real, Lanes::width>(to, {force[0], force[1], torque[0], normal_force});
     } else {
-        for (int k = 0; k < Lanes::width; ++k)
-            for (int axis = 0; axis < 3; ++axis) {
-                to[8 * k + axis] = force[axis][k];
-                to[8 * k + 4 + axis] = torque[axis][k];
-                to[8 * k + 3] = to[8 * k + 7] = Real(0);
-            }
+        for (int k = 0; k < Lanes::width; ++k) {
+            store_pair_force<Real, Dim>(to + 8 * k, {force[0][k], force[1][k], force[2][k]},
+                                        {torque[0][k], torque[1][k], torque[2][k]}, normal_force[k]);
+            to[8 * k + 7] = Real(0);
+        }
     }
 }
 
@@ -160,7 +170,7 @@ template <pair_kind Kind, bool WithEnergy, class Law, class Damping, class Real,
         }
         states.store(p, answer.history);
         store_pair_forces<Real, Dim>(forces + stride * slot, frame.force(normal, answer.shear_force),
-                                     frame.torque_per_radius(answer.shear_force));
+                                     frame.torque_per_radius(answer.shear_force), normal);
         if constexpr (WithEnergy) {
             stored += answer.stored_energy;
             dissipated += answer.dissipated_energy;

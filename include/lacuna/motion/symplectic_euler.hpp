@@ -90,7 +90,7 @@ struct symplectic_euler {
 private:
     /// Eq. 8 in space: the unit quaternion turned by spin * dt, renormalised.
     template <class Real>
-    static record<Real> turn(record<Real> q, record<Real> w, Real time_step) {
+    static record<Real> turn(record<Real> const& q, record<Real> const& w, Real time_step) {
         Real const h = Real(0.5) * time_step;
         record<Real> r;
         r.v[0] = q[0] - h * (w[0] * q[1] + w[1] * q[2] + w[2] * q[3]);
@@ -110,9 +110,9 @@ private:
     /// after it: with it, and with work as mean force times displacement, a linear system's energy adds up to
     /// rounding in this scheme. A prescribed motion does the work that its reaction, minus the force, does.
     template <class Real, int Dim>
-    static void add_energy(particle_store<Real, Dim> const& store, std::size_t p, record<Real> before,
-                           record<Real> after, record<Real> load, record<Real> force, record<Real> drag,
-                           motion_report<Real>& report) {
+    static void add_energy(particle_store<Real, Dim> const& store, std::size_t p, record<Real> const& before,
+                           record<Real> const& after, record<Real> const& load, record<Real> const& force,
+                           record<Real> const& drag, motion_report<Real>& report) {
         for (int axis = 0; axis < 3; ++axis) {
             bool const turning = Dim == 2 && axis == 2;
             add_freedom(turning ? surface_inertia(store, p) : double(store.mass(p)),

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <lacuna/core/error.hpp>
+#include <lacuna/interactions/break_event.hpp>
+#include <lacuna/particles/store.hpp>
+
+namespace lacuna {
+
+/// What is kept of a bond for good.
+struct bond_record {
+    std::array<std::int32_t, 2> particles; ///< stable ids
+    bond_state state = bond_state::intact;
+    std::int32_t slot = -1; ///< place in the bond table while intact
+};
+
+/// The order of pairs in their tables.
+template <class Entry>
+bool pair_before(Entry const& a, Entry const& b) noexcept {
+    return a.i < b.i || (a.i == b.i && a.j < b.j);
+}
+
+/// Bonds between the given particles, made at the distances they have, in the order of the tables.
+/// \param pairs stable ids
+/// \param row callable (i, j) -> row of the parameter table
+/// \param gap raised to the largest gap that a bond spans, m
+/// \throws std::invalid_argument for bonds between unknown, equal, coinciding or already bonded particles
+template <class Law, class Entry, class Real, int Dim, class Row>
+std::vector<Entry> make_bonds(particle_store<Real, Dim> const& store,
+                              std::span<std::array<std::int32_t, 2> const> pairs, Row const& row, Real& gap) {
+    std::vector<Entry> bonds;
+    bonds.reserve(pairs.size());
+    for (std::size_t b = 0; b < pairs.size(); ++b) {
+        std::string const name = "bond " + std::to_string(b);
+        for (auto const id : pairs[b]) require_in(name + ".particle", id, 0, double(store.size()) - 1);
+        if (pairs[b][0] == pairs[b][1]) refuse(name + ".particles", double(pairs[b][0]), "two different ones");
+        auto i = store.internal(std::size_t(pairs[b][0])), j = store.internal(std::size_t(pairs[b][1]));
+        if (i > j) std::swap(i, j);
+        Real const touching = store.radius(std::size_t(i)) + store.radius(std::size_t(j));
+        Real const distance = norm(store.position(std::size_t(j)) - store.position(std::size_t(i)));
+        if (!(distance > 0)) refuse(name + ".distance", double(distance), "> 0");
+        gap = std::max(gap, distance - touching);
+        bonds.push_back({i, j, row(i, j), std::int32_t(b), Law::template initial<Real, Dim>(distance, touching)});
+    }
+    std::sort(bonds.begin(), bonds.end(), pair_before<Entry>);
+    for (std::size_t b = 1; b < bonds.size(); ++b)
+        if (!pair_before(bonds[b - 1], bonds[b]))
+            refuse("bond " + std::to_string(bonds[b].label), "a repeated pair", "given once");
+    return bonds;
+}
+
+} // namespace lacuna
