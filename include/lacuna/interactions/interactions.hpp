@@ -135,11 +135,7 @@ public:
     pair_energy energy() const noexcept {
         pair_energy total;
         for (auto const& chunk : energy_)
-            for (auto const& e : chunk) {
-                total.stored += e.stored;
-                total.dissipated += e.dissipated;
-                total.damped += e.damped;
-            }
+            for (auto const& e : chunk) total += e;
         return total;
     }
 
@@ -155,9 +151,13 @@ public:
     /// Stiffnesses in N/m are the laws' own derivatives.
     template <class Visit>
     void for_each_stiffness(store_type const& store, Visit const& visit) const {
-        if constexpr (!is_absent<BondLaw>) visit_stiffness<BondLaw>(store, bonds_, bond_parameters_, forces_.of(0), true, visit);
+        constexpr std::size_t stride = 4 * pair_forces<Real, Dim>::records_per_pair;
+        auto const* f = forces_.of(0);
+        if constexpr (!is_absent<BondLaw>)
+            visit_stiffness<BondLaw>(store, bonds_, bond_parameters_, f, stride, true, visit);
         if constexpr (!is_absent<ContactLaw>)
-            visit_stiffness<ContactLaw>(store, contacts_, contact_parameters_, forces_.of(bonds_.slots()), false, visit);
+            visit_stiffness<ContactLaw>(store, contacts_, contact_parameters_, f + stride * bonds_.slots(), stride, false,
+                                        visit);
     }
 
     /// Slot of the pair (i, j), internal indices in any order: bonds first, then contacts; -1 if it is in neither.
@@ -211,8 +211,8 @@ private:
         broken_.clear();
         rows_.build(store.size(), bonds_, contacts_);
         forces_.column.resize((bonds_.slots() + contacts_.slots() + 1) * pair_forces<Real, Dim>::records_per_pair);
-        std::size_t const zero = bonds_.slots() + contacts_.slots();
-        for (std::size_t k = 0; k < 4 * pair_forces<Real, Dim>::records_per_pair; ++k) forces_.of(zero)[k] = 0;
+        auto* zero = forces_.of(bonds_.slots() + contacts_.slots());
+        std::fill(zero, zero + 4 * pair_forces<Real, Dim>::records_per_pair, Real(0));
         auto const chunks = std::size_t(rows_.chunks());
         chunk_events_.resize(chunks);
         energy_.resize(chunks);

@@ -6,8 +6,8 @@
 
 #include <lacuna/core/dual.hpp>
 #include <lacuna/core/fields.hpp>
-#include <lacuna/interactions/pair_loop.hpp>
 #include <lacuna/laws/pair_motion.hpp>
+#include <lacuna/particles/store.hpp>
 
 namespace lacuna {
 
@@ -46,9 +46,10 @@ pair_stiffness law_stiffness(typename Law::template parameters<Real> const& para
 /// table; the prestress is the pair's force over its distance. N/m, m.
 /// \param forces of the table's first slot, as last evaluated
 /// \param bonded see law_stiffness()
-template <class Law, class Real, int Dim, class Visit>
-void visit_stiffness(particle_store<Real, Dim> const& store, pair_table<Law, Real, Dim> const& table,
-                     parameter_table<Law, Real> const& parameters, Real const* forces, bool bonded, Visit const& visit) {
+/// \param stride numbers per pair in `forces`
+template <class Law, class Real, int Dim, class Table, class Parameters, class Visit>
+void visit_stiffness(particle_store<Real, Dim> const& store, Table const& table, Parameters const& parameters,
+                     Real const* forces, std::size_t stride, bool bonded, Visit const& visit) {
     for (std::size_t s = 0; s < table.slots(); ++s) {
         if (table.is_filler(s, store.size())) continue;
         auto const i = std::size_t(table.i(s)), j = std::size_t(table.j(s));
@@ -57,7 +58,7 @@ void visit_stiffness(particle_store<Real, Dim> const& store, pair_table<Law, Rea
             arm[axis] = double(store.position(j)[axis]) - double(store.position(i)[axis]);
         double const distance = norm(arm), ri = double(store.radius(i)), rj = double(store.radius(j));
         auto const k = law_stiffness<Law, Dim>(parameters.row[std::size_t(table.parameter()[s])], distance, ri, rj, bonded);
-        Real const* force = forces + 4 * pair_forces<Real, Dim>::records_per_pair * s;
+        Real const* force = forces + stride * s;
         double squared = 0;
         for (int axis = 0; axis < Dim; ++axis) squared += double(force[axis]) * double(force[axis]);
         visit(i, j, arm / distance, k.normal, k.shear, std::sqrt(squared) / distance, distance * ri / (ri + rj),

@@ -41,6 +41,12 @@ struct pair_energy {
     double stored = 0;     ///< elastic energy now
     double dissipated = 0; ///< by sliding and crushing in this step
     double damped = 0;     ///< taken out by dashpots in this step
+
+    void operator+=(pair_energy const& other) noexcept {
+        stored += other.stored;
+        dissipated += other.dissipated;
+        damped += other.damped;
+    }
 };
 
 /// Forces of pairs, one record (2D: F_x, F_y, torque per radius, normal force) or two (3D: force and normal force;
