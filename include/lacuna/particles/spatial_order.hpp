@@ -2,8 +2,10 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -56,7 +58,8 @@ std::vector<std::int32_t> spatial_order(points_view<Real, Dim> points) {
     for (int axis = 0; axis < Dim; ++axis) {
         Real high = low[axis] = points.size() ? points(0, axis) : Real(0);
         for (std::size_t i = 0; i < points.size(); ++i) {
-            require_finite("position", double(points(i, axis)));
+            if (!std::isfinite(points(i, axis)))
+                refuse("particle " + std::to_string(i) + ".position", double(points(i, axis)), "finite");
             low[axis] = std::min(low[axis], points(i, axis));
             high = std::max(high, points(i, axis));
         }
