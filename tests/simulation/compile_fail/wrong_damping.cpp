@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// refused: damping_policy
+
+#include <lacuna/simulation.hpp>
+
+struct my_model : lacuna::default_model<2> {
+#ifdef LACUNA_GOOD
+    using damping = lacuna::local_damping;
+#else
+    using damping = lacuna::frictional_spring;
+#endif
+};
+
+lacuna::simulation<my_model>* use = nullptr;

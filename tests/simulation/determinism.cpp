@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <algorithm>
+
+#include "catch.hpp"
+#include "simulation/setups.hpp"
+
+using namespace setups;
+
+namespace {
+
+struct plane_in_single : lacuna::default_model<2, float> {};
+
+double noise(std::size_t k, int salt) { return std::sin(12.9898 * double(k) + 78.233 * salt); }
+
+/// A sheet of 24 x 24 discs of mixed radii, half of its pairs bonded, that is torn, sheared and thrown at a wall.
+template <class Real>
+lacuna::packing<Real, 2> sheet() {
+    lacuna::packing<Real, 2> p;
+    for (int r = 0; r < 24; ++r)
+        for (int c = 0; c < 24; ++c) {
+            auto const k = p.size();
+            p.add({Real(c + 0.02 * noise(k, 1)), Real(r + 0.02 * noise(k, 2))}, Real(0.49 + 0.02 * noise(k, 3)));
+            if (c > 0 && noise(k, 4) > 0) p.bonds.push_back({std::int32_t(k) - 1, std::int32_t(k)});
+            if (r > 0 && noise(k, 5) > 0) p.bonds.push_back({std::int32_t(k) - 24, std::int32_t(k)});
+        }
+    return p;
+}
+
+struct outcome {
+    std::vector<lacuna::vec<double, 2>> position, velocity;
+    std::vector<double> spin;
+    std::vector<lacuna::break_event<2>> events;
+};
+
+template <class Model>
+outcome play(lacuna::packing<typename Model::real, 2> const& packing, int threads, bool wall, auto const& original) {
+    auto p = springs<Model>(100, 70, 0.4, unit_density(2), 1, 1);
+    p.time_step = 5e-3;
+    p.threads = threads;
+    p.interactions.initial_contact_tolerance = 0.02;
+    if (wall) p.walls = {{{0, -0.6}, {0, 1}, p.materials[0].contact}};
+    lacuna::simulation<Model> run(packing, p);
+    for (std::size_t k = 0; k < run.size(); ++k) {
+        auto const id = original(k);
+        run.set_velocity(k, {0.3 * noise(id, 6), 0.3 * noise(id, 7) - 0.2});
+        run.set_spin(k, {noise(id, 8)});
+    }
+    outcome o;
+    for (int n = 0; n < 60; ++n) {
+        run.step();
+        o.events.insert(o.events.end(), run.events().begin(), run.events().end());
+    }
+    for (std::size_t k = 0; k < run.size(); ++k) {
+        o.position.push_back(run.position(k));
+        o.velocity.push_back(run.velocity(k));
+        o.spin.push_back(run.spin(k)[0]);
+    }
+    return o;
+}
+
+bool same(lacuna::break_event<2> const& a, lacuna::break_event<2> const& b) {
+    return a.step == b.step && a.bond == b.bond && a.particles == b.particles && a.mode == b.mode &&
+           a.position == b.position && a.normal_force == b.normal_force && a.shear_force == b.shear_force &&
+           a.energy == b.energy;
+}
+
+template <class Model>
+void check_threads(std::vector<int> const& counts) {
+    auto const itself = [](std::size_t k) { return k; };
+    for (bool const wall : {false, true}) {
+        auto const one = play<Model>(sheet<typename Model::real>(), 1, wall, itself);
+        REQUIRE(one.events.size() > 20);
+        for (int const threads : counts) {
+            auto const more = play<Model>(sheet<typename Model::real>(), threads, wall, itself);
+            REQUIRE(more.position == one.position);
+            REQUIRE(more.velocity == one.velocity);
+            REQUIRE(more.spin == one.spin);
+            REQUIRE(more.events.size() == one.events.size());
+            REQUIRE(std::equal(more.events.begin(), more.events.end(), one.events.begin(), same));
+        }
+    }
+}
+
+} // namespace
+
+TEST_CASE("the same bits with any number of threads", "[determinism]") {
+    check_threads<plane>({2, 4});
+    check_threads<plane_in_single>({2});
+}
+
+TEST_CASE("the same bits whatever the order in which particles and bonds are given", "[determinism]") {
+    auto const packing = sheet<double>();
+    std::size_t const n = packing.size();
+    auto const one = play<plane>(packing, 1, false, [](std::size_t k) { return k; });
+    // new number = 181 * old modulo n: 181 and 576 share no factor.
+    std::vector<std::size_t> old_number(n);
+    for (std::size_t k = 0; k < n; ++k) old_number[k * 181 % n] = k;
+    lacuna::packing<double, 2> shuffled;
+    for (std::size_t k = 0; k < n; ++k) shuffled.add(packing.position[old_number[k]], packing.radius[old_number[k]]);
+    for (auto b = packing.bonds.rbegin(); b != packing.bonds.rend(); ++b)
+        shuffled.bonds.push_back({std::int32_t(std::size_t((*b)[1]) * 181 % n), std::int32_t(std::size_t((*b)[0]) * 181 % n)});
+    auto const other = play<plane>(shuffled, 1, false, [&](std::size_t k) { return old_number[k]; });
+    for (std::size_t k = 0; k < n; ++k) {
+        REQUIRE(other.position[k] == one.position[old_number[k]]);
+        REQUIRE(other.spin[k] == one.spin[old_number[k]]);
+    }
+    REQUIRE(other.events.size() == one.events.size());
+    for (std::size_t e = 0; e < one.events.size(); ++e) {
+        REQUIRE(other.events[e].step == one.events[e].step);
+        REQUIRE(other.events[e].position == one.events[e].position);
+        REQUIRE(std::size_t(other.events[e].bond) == packing.bonds.size() - 1 - std::size_t(one.events[e].bond));
+    }
+}
+
+TEST_CASE("a sheet that is a mirror image moves as a mirror image", "[determinism]") {
+    // Not in bits (sums come in another order), but to rounding as long as nothing bifurcates.
+    auto p = springs<plane>(1, 0.5, 0.3, unit_density(2));
+    p.time_step = 0.05;
+    auto const packing = lattice(7, 4, false);
+    lacuna::simulation<plane> run(packing, p);
+    for (std::size_t k = 0; k < 7; ++k) run.fix(k);
+    for (std::size_t k = 21; k < 28; ++k) run.apply(k, {0, -1e-3});
+    for (int n = 0; n < 1000; ++n) run.step();
+    REQUIRE(run.position(24)[1] < 3 - 1e-4);
+    for (std::size_t r = 0; r < 4; ++r)
+        for (std::size_t c = 0; c < 7; ++c) {
+            auto const a = run.position(7 * r + c), b = run.position(7 * r + 6 - c);
+            REQUIRE_THAT(a[0] + b[0], WithinAbs(6, 1e-12));
+            REQUIRE_THAT(a[1], WithinAbs(b[1], 1e-12));
+        }
+}

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "catch.hpp"
+#include "simulation/setups.hpp"
+
+using namespace setups;
+
+namespace {
+
+constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
+using settings = lacuna::simulation_parameters<plane>;
+
+std::string refusal(auto const& build) {
+    try {
+        build();
+    } catch (std::invalid_argument const& e) {
+        return e.what();
+    }
+    return "accepted";
+}
+
+} // namespace
+
+TEST_CASE("each bad parameter is refused by name", "[refusal]") {
+    struct field {
+        std::string name;
+        double& (*get)(settings&);
+        std::vector<double> bad;
+    };
+    std::vector<double> const positive{nan_value, never, -never, 0.0, -1.0};
+    std::vector<double> const not_negative{nan_value, never, -never, -1.0};
+    std::vector<double> const finite{nan_value, never, -never};
+    std::vector<double> const limit{nan_value, -never, -1.0};
+    field const fields[] = {
+        {"materials[0].density", [](settings& p) -> double& { return p.materials[0].density; }, positive},
+        {"materials[0].contact.normal_stiffness",
+         [](settings& p) -> double& { return p.materials[0].contact.normal_stiffness; }, positive},
+        {"materials[0].contact.shear_stiffness",
+         [](settings& p) -> double& { return p.materials[0].contact.shear_stiffness; }, not_negative},
+        {"materials[0].contact.friction", [](settings& p) -> double& { return p.materials[0].contact.friction; },
+         not_negative},
+        {"materials[0].bond.normal_stiffness", [](settings& p) -> double& { return p.materials[0].bond.normal_stiffness; },
+         positive},
+        {"materials[0].bond.shear_stiffness", [](settings& p) -> double& { return p.materials[0].bond.shear_stiffness; },
+         not_negative},
+        {"materials[0].bond.tensile_strength", [](settings& p) -> double& { return p.materials[0].bond.tensile_strength; },
+         limit},
+        {"materials[0].bond.shear_strength", [](settings& p) -> double& { return p.materials[0].bond.shear_strength; },
+         limit},
+        {"thickness", [](settings& p) -> double& { return p.thickness; }, positive},
+        {"gravity", [](settings& p) -> double& { return p.gravity[1]; }, finite},
+        {"interactions.skin", [](settings& p) -> double& { return p.interactions.skin; }, not_negative},
+        {"interactions.initial_contact_tolerance",
+         [](settings& p) -> double& { return p.interactions.initial_contact_tolerance; },
+         {nan_value, never, -1.0, 0.6}},
+        {"time_step", [](settings& p) -> double& { return p.time_step; }, not_negative},
+        {"safety", [](settings& p) -> double& { return p.safety; }, positive},
+        {"start_time", [](settings& p) -> double& { return p.start_time; }, finite},
+    };
+    for (auto const& f : fields)
+        for (double const value : f.bad) {
+            settings p;
+            f.get(p) = value;
+            INFO(f.name << " = " << value);
+            std::string const said = refusal([&] { lacuna::simulation<plane>(chain<2>(2), p); });
+            REQUIRE_THAT(said, contains_text(f.name + " = " + lacuna::to_text(value) + ": must be "));
+        }
+    settings fine;
+    REQUIRE(refusal([&] { lacuna::simulation<plane>(chain<2>(2), fine); }) == "accepted");
+    fine.materials.clear();
+    REQUIRE_THAT(refusal([&] { lacuna::simulation<plane>(chain<2>(2), fine); }), contains_text("materials.size()"));
+    settings threads;
+    threads.threads = 0;
+    REQUIRE_THAT(refusal([&] { lacuna::simulation<plane>(chain<2>(2), threads); }), contains_text("threads = 0"));
+    settings wall;
+    wall.walls = {{{0, 0}, {0, 0}, {}}};
+    REQUIRE_THAT(refusal([&] { lacuna::simulation<plane>(chain<2>(2), wall); }), contains_text("walls[0].normal"));
+    lacuna::simulation_parameters<plane_locally_damped> local;
+    for (double const value : {nan_value, -0.1, 1.1}) {
+        local.damping.factor = value;
+        REQUIRE_THAT(refusal([&] { lacuna::simulation<plane_locally_damped>(chain<2>(2), local); }),
+                     contains_text("damping.factor = " + lacuna::to_text(value)));
+    }
+    lacuna::simulation_parameters<plane_viscous> viscous;
+    for (double const value : {nan_value, never, -0.1}) {
+        viscous.damping.ratio = value;
+        REQUIRE_THAT(refusal([&] { lacuna::simulation<plane_viscous>(chain<2>(2), viscous); }),
+                     contains_text("damping.ratio = " + lacuna::to_text(value)));
+    }
+}
+
+TEST_CASE("each bad packing is refused by the particle's or bond's name", "[refusal]") {
+    auto const attempt = [](auto const& spoil) {
+        auto p = chain<2>(3);
+        spoil(p);
+        return refusal([&] { lacuna::simulation<plane> run(p); });
+    };
+    using pack = lacuna::packing<double, 2>;
+    for (double const r : {nan_value, never, 0.0, -0.5})
+        REQUIRE_THAT(attempt([&](pack& p) { p.radius[1] = r; }),
+                     contains_text("particle 1.radius = " + lacuna::to_text(r)));
+    for (double const x : {nan_value, never})
+        REQUIRE_THAT(attempt([&](pack& p) { p.position[2][1] = x; }),
+                     contains_text("particle 2.position = " + lacuna::to_text(x)));
+    REQUIRE_THAT(attempt([](pack& p) { p.material[1] = 1; }), contains_text("particle 1.material = 1"));
+    REQUIRE_THAT(attempt([](pack& p) { p.material[1] = -1; }), contains_text("particle 1.material = -1"));
+    REQUIRE_THAT(attempt([](pack& p) { p.radius.pop_back(); }), contains_text("packing.radius.size()"));
+    REQUIRE_THAT(attempt([](pack& p) { p.material.pop_back(); }), contains_text("packing.material.size()"));
+    REQUIRE_THAT(attempt([](pack& p) { p.bonds[1] = {1, 3}; }), contains_text("bond 1.particle = 3"));
+    REQUIRE_THAT(attempt([](pack& p) { p.bonds[1] = {-1, 2}; }), contains_text("bond 1.particle = -1"));
+    REQUIRE_THAT(attempt([](pack& p) { p.bonds[1] = {2, 2}; }), contains_text("bond 1.particles = 2"));
+    REQUIRE_THAT(attempt([](pack& p) { p.bonds.push_back({1, 0}); }), contains_text("a repeated pair"));
+    REQUIRE_THAT(attempt([](pack& p) { p.position[1] = p.position[0]; }), contains_text("bond 0.distance"));
+    REQUIRE(attempt([](pack&) {}) == "accepted");
+}
+
+TEST_CASE("bad calls are refused", "[refusal]") {
+    lacuna::simulation<plane> run(chain<2>(3));
+    REQUIRE_THROWS_WITH(run.position(3), contains_text("particle = 3"));
+    REQUIRE_THROWS_WITH(run.apply(0, {nan_value, 0}), contains_text("load on particle 0.force"));
+    REQUIRE_THROWS_WITH(run.apply(2, {0, 0}, never), contains_text("load on particle 2.torque"));
+    REQUIRE_THROWS_WITH(run.apply(2, {0, 0}, 0, -1), contains_text("load on particle 2.ramp_time"));
+    lacuna::packing<double, 2> one;
+    one.add({0, 0}, 0.5);
+    lacuna::simulation<plane> alone(one);
+    REQUIRE_THROWS_WITH(alone.step(), contains_text("time_step") && contains_text("without any stiffness"));
+}
+
+TEST_CASE("a run that went wrong says where", "[unstable]") {
+    auto const expect = [](auto& run, long long step, long long particle, std::string const& text) {
+        try {
+            for (int n = 0; n < 1000; ++n) run.step();
+            FAIL("nothing was thrown");
+        } catch (lacuna::unstable_run const& e) {
+            CHECK(e.step() == step);
+            CHECK(e.particle() == particle);
+            CHECK_THAT(e.what(), contains_text("step " + std::to_string(step)) && contains_text(text) &&
+                                     contains_text("particle " + std::to_string(particle)));
+        }
+    };
+    auto p = springs<plane>(1, 1, 0, unit_density(2));
+    p.time_step = 0.1;
+    {
+        lacuna::simulation<plane> run(chain<2>(5, false), p);
+        for (int n = 0; n < 3; ++n) run.step();
+        run.set_velocity(3, {0, 0.51}); // 0.051 m in a step, 0.102 radii
+        expect(run, 3, 3, "of its radius in one step");
+    }
+    {
+        lacuna::simulation<plane> run(chain<2>(5, false), p);
+        run.set_velocity(3, {0, 0.49});
+        REQUIRE_NOTHROW(run.step());
+    }
+    {
+        lacuna::simulation<plane> run(chain<2>(5), p);
+        run.set_velocity(2, {nan_value, 0});
+        expect(run, 0, 2, "not a number");
+    }
+    {
+        lacuna::packing<double, 2> same;
+        same.add({7, 7}, 0.5);
+        same.add({1, 1}, 0.5);
+        same.add({1, 1}, 0.5);
+        auto q = p;
+        lacuna::simulation<plane> run(same, q);
+        CHECK_THROWS_AS(run.step(), lacuna::unstable_run);
+    }
+    {
+        lacuna::packing<double, 2> two;
+        two.add({0, 0}, 0.5);
+        two.add({0.45, 0}, 0.5);
+        two.add({9, 9}, 0.5);
+        lacuna::simulation<plane> run(two, p);
+        run.fix(0);
+        run.fix(1);
+        try {
+            run.step();
+            FAIL("nothing was thrown");
+        } catch (lacuna::unstable_run const& e) {
+            CHECK((e.particle() == 0 || e.particle() == 1));
+            CHECK_THAT(e.what(), contains_text("overlaps another particle by more than a radius"));
+        }
+    }
+    {
+        auto q = p;
+        q.walls = {{{0, 0}, {0, 1}, q.materials[0].contact}};
+        lacuna::packing<double, 2> one;
+        one.add({0, 0.5}, 0.5);
+        lacuna::simulation<plane> run(one, q);
+        run.fix(0);
+        run.set_velocity(0, {0, -0.4});
+        expect(run, 13, 0, "beyond a wall"); // 0.5 - 13 * 0.04 < 0
+    }
+    {
+        auto q = p;
+        q.allow_unstable_step = true;
+        q.time_step = 1.9;
+        lacuna::simulation<plane> run(chain<2>(8), q);
+        run.set_velocity(0, {1e-6, 0});
+        CHECK_THROWS_AS(run.run(10000), lacuna::unstable_run);
+    }
+}
