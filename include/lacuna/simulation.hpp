@@ -98,7 +98,12 @@ public:
             density.push_back(m.density);
             contact_materials.push_back(m.contact);
         }
-        auto const order = spatial_order(view_points(packing.position));
+        auto const order = [&] {
+            if constexpr (dim == 2)
+                return strip_order(view_points(packing.position));
+            else
+                return spatial_order(view_points(packing.position));
+        }();
         store_ = store_type(packing, order, density, p.mass, p.thickness);
         loads_ = load_set<real, dim>(p.gravity, store_.size());
         loads_.apply_gravity(store_);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "catch.hpp"
 
+#include <algorithm>
+#include <cstdlib>
 #include <limits>
 #include <set>
 #include <stdexcept>
@@ -57,4 +59,30 @@ TEST_CASE("spatial order of nothing, of one place, of bad numbers", "[particles]
     REQUIRE(lacuna::spatial_order(lacuna::view_points(points)) == std::vector<std::int32_t>{0, 1, 2, 3, 4});
     points[2][1] = std::numeric_limits<double>::quiet_NaN();
     REQUIRE_THROWS_AS(lacuna::spatial_order(lacuna::view_points(points)), std::invalid_argument);
+}
+
+TEST_CASE("strip order keeps the neighbours of a particle within two strips", "[particles]") {
+    // 40 by 90 points, shuffled: strips of one row of 40, so that a row's neighbour is at most 2 * 40 - 1 away.
+    std::vector<vec<double, 2>> points;
+    int const columns = 40, rows = 90, count = columns * rows;
+    for (int k = 0; k < count; ++k) {
+        int const n = (k * 1777) % count; // 1777 is prime to 3600
+        points.push_back({1e-6 * (n % columns) + 2e-6, 1e-6 * (n / columns) - 5e-5});
+    }
+    auto const order = lacuna::strip_order(lacuna::view_points(points));
+    REQUIRE(std::set<int>(order.begin(), order.end()).size() == points.size());
+    std::vector<int> place(points.size());
+    for (int k = 0; k < count; ++k) place[std::size_t(order[std::size_t(k)])] = k;
+    int farthest = 0;
+    for (int i = 0; i < count; ++i)
+        for (int j = 0; j < i; ++j)
+            if (norm(points[std::size_t(i)] - points[std::size_t(j)]) < 1.1e-6)
+                farthest = std::max(farthest, std::abs(place[std::size_t(i)] - place[std::size_t(j)]));
+    REQUIRE(farthest < 3 * columns);
+
+    REQUIRE(lacuna::strip_order(lacuna::points_view<double, 2>{}).empty());
+    std::vector<vec<double, 2>> const line{{2, 0}, {0, 0}, {1, 0}};
+    REQUIRE(lacuna::strip_order(lacuna::view_points(line)) == std::vector<std::int32_t>{1, 2, 0});
+    std::vector<vec<double, 2>> const bad{{0, 0}, {std::numeric_limits<double>::quiet_NaN(), 0}};
+    REQUIRE_THROWS_WITH(lacuna::strip_order(lacuna::view_points(bad)), contains_text("particle 1.position"));
 }

@@ -80,4 +80,53 @@ std::vector<std::int32_t> spatial_order(points_view<Real, Dim> points) {
     return order;
 }
 
+/// Numbering of particles in the plane along a curve that sweeps it strip by strip, back and forth, each strip as
+/// wide as a particle has room and across the longer side of the body.
+///
+/// A step that visits the particles in this order has all partners of a particle within about one strip on either
+/// side: a window that stays in the cache even of a million particles, so that each record comes from memory once.
+/// Along a Hilbert curve most partners are closer, but some are very far. In space, where the window is a whole
+/// layer, spatial_order() is the better one.
+/// \param points positions, m; finite
+/// \return as spatial_order()
+/// \throws std::invalid_argument when a coordinate is not finite
+template <class Real>
+std::vector<std::int32_t> strip_order(points_view<Real, 2> points) {
+    double low[2] = {0, 0}, side[2] = {0, 0};
+    for (int axis = 0; axis < 2; ++axis) {
+        double high = low[axis] = points.size() ? double(points(0, axis)) : 0.0;
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            if (!std::isfinite(points(i, axis)))
+                refuse("particle " + std::to_string(i) + ".position", double(points(i, axis)), "finite");
+            low[axis] = std::min(low[axis], double(points(i, axis)));
+            high = std::max(high, double(points(i, axis)));
+        }
+        side[axis] = high - low[axis];
+    }
+    int const along = side[0] > side[1] ? 0 : 1, across = 1 - along;
+    double const width = std::sqrt(side[0] * side[1] / double(std::max<std::size_t>(points.size(), 1)));
+    double const strips = width > 0 ? side[along] / width : 0.0;
+    struct key {
+        std::int64_t strip;
+        double place, depth;
+        std::int32_t number;
+        bool operator<(key const& o) const noexcept {
+            if (strip != o.strip) return strip < o.strip;
+            if (place != o.place) return place < o.place;
+            return depth != o.depth ? depth < o.depth : number < o.number;
+        }
+    };
+    std::vector<key> keyed(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        double const depth = double(points(i, along)) - low[along];
+        auto const strip = strips < 1e9 && width > 0 ? std::int64_t(depth / width) : std::int64_t(0);
+        double const place = double(points(i, across)) - low[across];
+        keyed[i] = {strip, strip % 2 ? -place : place, depth, std::int32_t(i)};
+    }
+    std::sort(keyed.begin(), keyed.end());
+    std::vector<std::int32_t> order(points.size());
+    for (std::size_t k = 0; k < order.size(); ++k) order[k] = keyed[k].number;
+    return order;
+}
+
 } // namespace lacuna
