@@ -72,13 +72,7 @@ inline lacuna::packing<double, 2> lattice(int columns, int rows, bool triangular
 /// Force of the pair (a, b), by stable ids, on a, at the last step: {F_x, F_y[, F_z]}.
 template <class Model>
 lacuna::vec<double, Model::dim> pair_force(lacuna::simulation<Model> const& s, int a, int b) {
-    auto const i = s.particles().internal(std::size_t(a)), j = s.particles().internal(std::size_t(b));
-    auto const slot = s.pairs().find_slot(i, j);
-    lacuna::vec<double, Model::dim> f{};
-    if (slot < 0) return f;
-    for (int axis = 0; axis < Model::dim; ++axis)
-        f[axis] = (i < j ? 1 : -1) * double(s.pairs().pair_force(std::size_t(slot))[axis]);
-    return f;
+    return s.pair_force(std::size_t(a), std::size_t(b));
 }
 
 /// Normal force, positive in tension, from the last force and the positions before the last motion; along x.

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
+#include <initializer_list>
 #include <vector>
 
 #include <lacuna/interactions/pair_loop.hpp>
@@ -23,20 +25,26 @@ public:
     static constexpr std::int32_t own = Dim == 2 ? 2 : 3;
     static constexpr std::int32_t reals_per_pair = std::int32_t(4 * pair_forces<Real, Dim>::records_per_pair);
 
+    /// \param streaming the particles of a chunk move as soon as its pairs are evaluated: a force is then only kept
+    ///        until the last chunk that needs it, and its place is used again, which spares the memory the writing
+    ///        and fetching of forces that nobody reads
     /// \param tables the pair tables whose forces lie one after the other in the force column, then one zero
+    /// \return for each table, how many packs of forces are kept: pack p lies at p modulo that number
     template <class... Tables>
-    void build(std::size_t particles, Tables const&... tables) {
+    std::array<std::size_t, sizeof...(Tables)> build(std::size_t particles, bool streaming, Tables const&... tables) {
+        std::array<std::size_t, sizeof...(Tables)> const kept{(streaming ? window(particles, tables) : all(tables))...};
         std::size_t const chunks = (particles + chunk_particles - 1) / chunk_particles;
         degree_.assign(chunks * chunk_particles, 0);
         auto const for_each = [&](auto const& visit) {
-            std::int32_t first = 0;
+            std::size_t first = 0, t = 0;
             (void)std::initializer_list<int>{([&] {
+                std::size_t const places = kept[t++] * tables.width;
                 for (std::size_t s = 0; s < tables.slots(); ++s)
                     if (!tables.is_filler(s, particles))
-                        visit(tables.i(s), tables.j(s), (first + std::int32_t(s)) * reals_per_pair);
-                first += std::int32_t(tables.slots());
+                        visit(tables.i(s), tables.j(s), std::int32_t(first + s % places) * reals_per_pair);
+                first += places;
             }(), 0)...};
-            return first * reals_per_pair;
+            return std::int32_t(first) * reals_per_pair;
         };
         std::int32_t const zero = for_each([&](std::int32_t i, std::int32_t j, std::int32_t) {
             ++degree_[std::size_t(i)];
@@ -61,6 +69,7 @@ public:
             put(i, offset + own);
             put(j, offset);
         });
+        return kept;
     }
 
     int chunks() const noexcept { return int(row_.size()); }
@@ -71,6 +80,21 @@ public:
     std::int32_t const* rows(int chunk) const noexcept { return entry_.data() + begin_[std::size_t(chunk)]; }
 
 private:
+    template <class Table>
+    static std::size_t all(Table const& table) noexcept {
+        return std::max<std::size_t>(table.packs(), 1);
+    }
+    /// Packs from one whose force is still needed to the end of the chunk that needs it, at most.
+    template <class Table>
+    static std::size_t window(std::size_t particles, Table const& table) noexcept {
+        std::size_t most = 1;
+        for (int c = 0; c < table.chunks(); ++c) most = std::max(most, table.end_pack(c) - table.first_pack(c));
+        for (std::size_t s = 0; s < table.slots(); ++s)
+            if (!table.is_filler(s, particles))
+                most = std::max(most, table.end_pack(int(table.j(s) / chunk_particles)) - s / table.width);
+        return most;
+    }
+
     std::vector<std::int32_t> degree_, row_, entry_;
     std::vector<std::size_t> begin_;
 };

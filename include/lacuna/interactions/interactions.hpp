@@ -84,6 +84,14 @@ public:
 
     int chunks() const noexcept { return rows_.chunks(); }
 
+    /// Says whether each chunk's particles move as soon as its pairs are evaluated, before the next chunk's pairs are.
+    /// Then forces are not kept for longer than that takes, and find_force() finds none.
+    void set_streaming(store_type const& store, bool streaming) {
+        if (streaming == streaming_) return;
+        streaming_ = streaming;
+        build_rows(store);
+    }
+
     /// Pair forces of the pairs that a chunk of particles owns. Chunks are independent of each other.
     template <bool WithEnergy>
     void evaluate(store_type const& store, int chunk, Real time_step) {
@@ -91,11 +99,12 @@ public:
         energy = {};
         if constexpr (!is_absent<BondLaw>)
             evaluate_chunk<pair_kind::bond, WithEnergy, BondLaw, Damping>(
-                bonds_, chunk, bond_parameters_, damping_, store, time_step, forces_.of(0), energy[0],
+                bonds_, chunk, bond_parameters_, damping_, store, time_step, forces_.of(0), kept_[0], energy[0],
                 [&](std::size_t pack) { break_bonds(store, chunk, pack, time_step); });
         if constexpr (!is_absent<ContactLaw>)
             evaluate_chunk<pair_kind::contact, WithEnergy, ContactLaw, Damping>(
-                contacts_, chunk, contact_parameters_, damping_, store, time_step, forces_.of(bonds_.slots()), energy[1],
+                contacts_, chunk, contact_parameters_, damping_, store, time_step, contact_forces(), kept_[1],
+                energy[1],
                 [&](std::size_t pack) { note_deep_overlap(store, chunk, pack); });
     }
     /// Calls use(sum) with the sum of pair forces on the particles of a chunk, once all pairs that concern them are
@@ -151,22 +160,22 @@ public:
     /// Stiffnesses in N/m are the laws' own derivatives.
     template <class Visit>
     void for_each_stiffness(store_type const& store, Visit const& visit) const {
-        constexpr std::size_t stride = 4 * pair_forces<Real, Dim>::records_per_pair;
-        auto const* f = forces_.of(0);
-        if constexpr (!is_absent<BondLaw>)
-            visit_stiffness<BondLaw>(store, bonds_, bond_parameters_, f, stride, true, visit);
+        if constexpr (!is_absent<BondLaw>) visit_stiffness<BondLaw>(store, bonds_, bond_parameters_, true, visit);
         if constexpr (!is_absent<ContactLaw>)
-            visit_stiffness<ContactLaw>(store, contacts_, contact_parameters_, f + stride * bonds_.slots(), stride, false,
-                                        visit);
+            visit_stiffness<ContactLaw>(store, contacts_, contact_parameters_, false, visit);
     }
 
-    /// Slot of the pair (i, j), internal indices in any order: bonds first, then contacts; -1 if it is in neither.
-    std::int32_t find_slot(std::int32_t i, std::int32_t j) const noexcept {
+    /// Offset in force_column() of the force record of the pair (i, j), internal indices in any order; -1 if it is no
+    /// pair, or when forces are not kept. The force is the one on the lower-numbered particle; its fourth number is
+    /// the normal force.
+    std::int32_t find_force(std::int32_t i, std::int32_t j) const noexcept {
+        if (streaming_) return -1;
         if (i > j) std::swap(i, j);
-        if (auto const s = bonds_.find(i, j); s >= 0) return s;
-        auto const s = contacts_.find(i, j);
-        return s < 0 ? -1 : s + std::int32_t(bonds_.slots());
+        std::int32_t slot = bonds_.find(i, j);
+        if (slot < 0 && (slot = contacts_.find(i, j)) >= 0) slot += std::int32_t(kept_[0]) * bond_table::width;
+        return slot < 0 ? -1 : slot * force_rows<Real, Dim>::reals_per_pair;
     }
+    Real const* force_column() const noexcept { return forces_.of(0); }
 
     bond_table const& bonds() const noexcept { return bonds_; }
     contact_table const& contacts() const noexcept { return contacts_; }
@@ -175,8 +184,6 @@ public:
     parameter_table<BondLaw, Real> const& bond_parameters() const noexcept { return bond_parameters_; }
     typename Damping::parameters const& damping() const noexcept { return damping_; }
     verlet_list<Search> const& neighbors() const noexcept { return neighbors_; }
-    /// Force record of a slot, as last evaluated: bonds first, then contacts.
-    Real const* pair_force(std::size_t slot) const noexcept { return forces_.of(slot); }
 
 private:
     using contact_entry = typename contact_table::entry;
@@ -209,15 +216,21 @@ private:
                     bond_records_[std::size_t(bonds_.label(s))].slot = std::int32_t(s);
         }
         broken_.clear();
-        rows_.build(store.size(), bonds_, contacts_);
-        forces_.column.resize((bonds_.slots() + contacts_.slots() + 1) * pair_forces<Real, Dim>::records_per_pair);
-        auto* zero = forces_.of(bonds_.slots() + contacts_.slots());
-        std::fill(zero, zero + 4 * pair_forces<Real, Dim>::records_per_pair, Real(0));
+        build_rows(store);
         auto const chunks = std::size_t(rows_.chunks());
         chunk_events_.resize(chunks);
         energy_.resize(chunks);
         deep_overlap_.assign(chunks, -1);
     }
+
+    void build_rows(store_type const& store) {
+        kept_ = rows_.build(store.size(), streaming_, bonds_, contacts_);
+        std::size_t const places = (kept_[0] + kept_[1]) * bond_table::width;
+        forces_.column.resize((places + 1) * pair_forces<Real, Dim>::records_per_pair);
+        auto* zero = forces_.of(places);
+        std::fill(zero, zero + 4 * pair_forces<Real, Dim>::records_per_pair, Real(0));
+    }
+    Real* contact_forces() noexcept { return forces_.of(kept_[0] * bond_table::width); }
 
     template <class Table, class Entry>
     static void take_entries(Table const& table, std::size_t particles, std::vector<Entry>& out) {
@@ -262,7 +275,8 @@ private:
             std::int32_t const row = parameter_row(store, bond.i, bond.j);
             auto const failed = fail_bond<BondLaw, ContactLaw>(
                 store, bond, bond_parameters_.row[std::size_t(bond.parameter)],
-                contact_parameters_.row[std::size_t(row)], row, time_step, forces_.of(s));
+                contact_parameters_.row[std::size_t(row)], row, time_step,
+                forces_.of(s % (kept_[0] * bond_table::width)));
             if (!failed) continue;
             energy_[std::size_t(chunk)][2].stored += failed->stored;
             chunk_events_[std::size_t(chunk)].push_back(*failed);
@@ -290,6 +304,8 @@ private:
     contact_table contacts_;
     pair_forces<Real, Dim> forces_;
     force_rows<Real, Dim> rows_;
+    std::array<std::size_t, 2> kept_{1, 1}; ///< packs of forces of bonds, of contacts
+    bool streaming_ = false;
     std::vector<bond_record> bond_records_;
     std::vector<bond_entry> bond_entries_;
     std::vector<contact_entry> old_contacts_, new_contacts_, broken_;

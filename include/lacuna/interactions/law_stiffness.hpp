@@ -44,12 +44,10 @@ pair_stiffness law_stiffness(typename Law::template parameters<Real> const& para
 
 /// Calls visit(i, j, normal, normal_stiffness, shear_stiffness, prestress, lever_i, lever_j) for every pair of a
 /// table; the prestress is the pair's force over its distance. N/m, m.
-/// \param forces of the table's first slot, as last evaluated
 /// \param bonded see law_stiffness()
-/// \param stride numbers per pair in `forces`
 template <class Law, class Real, int Dim, class Table, class Parameters, class Visit>
 void visit_stiffness(particle_store<Real, Dim> const& store, Table const& table, Parameters const& parameters,
-                     Real const* forces, std::size_t stride, bool bonded, Visit const& visit) {
+                     bool bonded, Visit const& visit) {
     for (std::size_t s = 0; s < table.slots(); ++s) {
         if (table.is_filler(s, store.size())) continue;
         auto const i = std::size_t(table.i(s)), j = std::size_t(table.j(s));
@@ -58,11 +56,10 @@ void visit_stiffness(particle_store<Real, Dim> const& store, Table const& table,
             arm[axis] = double(store.position(j)[axis]) - double(store.position(i)[axis]);
         double const distance = norm(arm), ri = double(store.radius(i)), rj = double(store.radius(j));
         auto const k = law_stiffness<Law, Dim>(parameters.row[std::size_t(table.parameter()[s])], distance, ri, rj, bonded);
-        Real const* force = forces + stride * s;
-        double squared = 0;
-        for (int axis = 0; axis < Dim; ++axis) squared += double(force[axis]) * double(force[axis]);
-        visit(i, j, arm / distance, k.normal, k.shear, std::sqrt(squared) / distance, distance * ri / (ri + rj),
-              distance * rj / (ri + rj));
+        pair_motion<Real, Dim> const still{Real(distance), Real(ri), Real(rj), {}, Real(0)};
+        auto const force = Law::evaluate(parameters.row[std::size_t(table.parameter()[s])], still, table.get(s).state);
+        double const prestress = std::hypot(double(force.normal_force), double(norm(force.shear_force))) / distance;
+        visit(i, j, arm / distance, k.normal, k.shear, prestress, distance * ri / (ri + rj), distance * rj / (ri + rj));
     }
 }
 

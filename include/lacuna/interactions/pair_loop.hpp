@@ -133,6 +133,7 @@ enum class pair_kind { contact, bond };
 ///
 /// The law's formula is instantiated with packs here; this loop is the only one over pairs in the step.
 /// \tparam WithEnergy also sums up energies (the sums cost time, so they are only made when something asks)
+/// \param forces of the table's pairs; \param kept number of packs of them: see force_rows::build()
 /// \param on_event called as on_event(pack) after a pack in which a bond has failed, or two particles overlap by
 ///        more than a radius; rare
 template <pair_kind Kind, bool WithEnergy, class Law, class Damping, class Real, int Dim, class OnEvent>
@@ -140,13 +141,14 @@ template <pair_kind Kind, bool WithEnergy, class Law, class Damping, class Real,
                                       parameter_table<Law, Real> const& parameters,
                                       typename Damping::parameters const& damping,
                                       particle_store<Real, Dim> const& store, Real time_step, Real* forces,
-                                      pair_energy& energy, OnEvent const& on_event) {
+                                      std::size_t kept, pair_energy& energy, OnEvent const& on_event) {
     using lanes = typename pair_table<Law, Real, Dim>::lanes;
     constexpr int W = lanes::width;
     constexpr std::size_t stride = 4 * pair_forces<Real, Dim>::records_per_pair;
     lanes const dt(time_step);
     lanes stored(Real(0)), dissipated(Real(0)), damped(Real(0));
     auto& states = table.states();
+    std::size_t place = table.first_pack(chunk) % kept;
     typename Law::template parameters<lanes> law{};
     std::int32_t loaded = -2;
     for (std::size_t p = table.first_pack(chunk), end = table.end_pack(chunk); p < end; ++p) {
@@ -175,8 +177,9 @@ template <pair_kind Kind, bool WithEnergy, class Law, class Damping, class Real,
             if constexpr (WithEnergy) damped += (normal - answer.normal_force) * frame.motion.normal_rate * dt;
         }
         states.store(p, answer.history);
-        store_pair_forces<Real, Dim>(forces + stride * slot, frame.force(normal, answer.shear_force),
+        store_pair_forces<Real, Dim>(forces + stride * W * place, frame.force(normal, answer.shear_force),
                                      frame.torque_per_radius(answer.shear_force), normal);
+        if (++place == kept) place = 0;
         if constexpr (WithEnergy) {
             stored += answer.stored_energy;
             dissipated += answer.dissipated_energy;
