@@ -7,9 +7,10 @@ add_library(lacuna_numerics INTERFACE)
 if(CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
   target_compile_options(lacuna_warnings INTERFACE -Wall -Wextra -Wshadow -Wpedantic
     $<$<BOOL:${LACUNA_WERROR}>:-Werror>)
-  # No test of errno and no care for traps, so that square roots and selections become vector instructions; no
-  # contraction, so that the plain and the packed form of one formula give the same bits.
-  target_compile_options(lacuna_numerics INTERFACE -fno-math-errno -fno-trapping-math -ffp-contract=off)
+  # No test of errno and no care for traps, so that square roots and selections become vector instructions. Products
+  # and sums may be contracted: a run has the same bits on any number of threads because all of them run the same
+  # functions. Tests compare the plain and the packed form of a formula bit by bit: there contraction is off.
+  target_compile_options(lacuna_numerics INTERFACE -fno-math-errno -fno-trapping-math)
 endif()
 
 # lacuna_add_program(name sources...): an executable with the library, all components that were found, and our
