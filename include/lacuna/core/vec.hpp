@@ -133,6 +133,14 @@ vec<T, N> clip_norm(vec<T, N> const& a, T const& limit) noexcept {
     }
 }
 
+/// The same vector in another scalar type.
+template <class To, class From, int N>
+constexpr vec<To, N> convert(vec<From, N> const& a) noexcept {
+    vec<To, N> r{};
+    for (int i = 0; i < N; ++i) r[i] = To(a[i]);
+    return r;
+}
+
 /// How many components a rotation (spin, torque) has: one in the plane, three in space.
 template <int Dim>
 inline constexpr int rotation_dim = Dim == 2 ? 1 : 3;

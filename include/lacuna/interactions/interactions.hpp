@@ -8,6 +8,7 @@
 
 #include <lacuna/interactions/bond_failure.hpp>
 #include <lacuna/interactions/bond_list.hpp>
+#include <lacuna/interactions/contact_list.hpp>
 #include <lacuna/interactions/force_rows.hpp>
 #include <lacuna/interactions/law_stiffness.hpp>
 #include <lacuna/interactions/interaction_parameters.hpp>
@@ -206,7 +207,10 @@ private:
             take_entries(contacts_, store.size(), old_contacts_);
             old_contacts_.insert(old_contacts_.end(), broken_.begin(), broken_.end());
             if (!broken_.empty()) std::sort(old_contacts_.begin(), old_contacts_.end(), pair_before<contact_entry>);
-            merge_contacts(store, first);
+            merge_contacts(neighbors_.pairs(), bond_entries_, old_contacts_, new_contacts_, [&](neighbor_pair const& pair) {
+                return contact_entry{pair.i, pair.j, parameter_row(store, pair.i, pair.j), -1,
+                                     first_history<ContactLaw>(store, pair, first ? parameters_.initial_contact_tolerance : 0)};
+            });
             contacts_.assign(new_contacts_, store.size(), store.ghost(0), store.ghost(1));
         }
         if (bonds_change) {
@@ -237,35 +241,6 @@ private:
         out.clear();
         for (std::size_t s = 0; s < table.slots(); ++s)
             if (!table.is_filler(s, particles)) out.push_back(table.get(s));
-    }
-
-    /// The candidates of the neighbour list without the bonded pairs, each with the history it had.
-    void merge_contacts(store_type const& store, bool first) {
-        new_contacts_.clear();
-        auto bond = bond_entries_.begin();
-        auto old = old_contacts_.begin();
-        for (neighbor_pair const& pair : neighbors_.pairs()) {
-            auto const earlier = [&](auto const& e) { return e.i < pair.i || (e.i == pair.i && e.j < pair.j); };
-            auto const same = [&](auto const& e) { return e.i == pair.i && e.j == pair.j; };
-            while (bond != bond_entries_.end() && earlier(*bond)) ++bond;
-            if (bond != bond_entries_.end() && same(*bond)) continue;
-            while (old != old_contacts_.end() && earlier(*old)) ++old;
-            if (old != old_contacts_.end() && same(*old)) {
-                new_contacts_.push_back(*old);
-                continue;
-            }
-            auto const i = std::size_t(pair.i), j = std::size_t(pair.j);
-            Real const touching = store.radius(i) + store.radius(j);
-            Real start = touching;
-            if (first) {
-                Real const distance = norm(store.position(j) - store.position(i));
-                Real const tolerance =
-                    Real(parameters_.initial_contact_tolerance) * std::min(store.radius(i), store.radius(j));
-                if (abs(distance - touching) <= tolerance) start = distance;
-            }
-            new_contacts_.push_back({pair.i, pair.j, parameter_row(store, pair.i, pair.j), -1,
-                                     ContactLaw::template initial<Real, Dim>(start, touching)});
-        }
     }
 
     [[gnu::noinline]] void break_bonds(store_type const& store, int chunk, std::size_t pack, Real time_step) {

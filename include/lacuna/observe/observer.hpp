@@ -61,5 +61,29 @@ constexpr void check_observer() {
         static_assert(!requires(type & o, Simulation const& s) { o.on_end(s); }, "on_end is not among the stages");
 }
 
+template <class O, class Simulation>
+void notify_start(O& o, Simulation const& s) {
+    if constexpr (has(O::stages, stage::start)) o.on_start(s);
+}
+template <class O, class Event, class Simulation>
+void notify_break(O& o, Event const& event, Simulation const& s) {
+    if constexpr (has(O::stages, stage::breakage)) o.on_break(event, s);
+}
+/// \return whether the run may go on
+template <class O, class Simulation>
+bool notify_step(O& o, Simulation const& s) {
+    if constexpr (has(O::stages, stage::step)) {
+        if constexpr (std::is_void_v<decltype(o.on_step(s))>)
+            o.on_step(s);
+        else
+            return o.on_step(s) != run_control::stop;
+    }
+    return true;
+}
+template <class O, class Simulation>
+void notify_end(O& o, Simulation const& s) {
+    if constexpr (has(O::stages, stage::end)) o.on_end(s);
+}
+
 } // namespace detail
 } // namespace lacuna

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <span>
+
+#include <lacuna/interactions/pair_loop.hpp>
+#include <lacuna/motion/symplectic_euler.hpp>
+#include <lacuna/observe/energy_ledger.hpp>
+#include <lacuna/pores/flow.hpp>
+
+namespace lacuna {
+
+/// Keeps the energy ledger of a run from what its parts report in each step.
+template <class Real>
+class ledger_keeper {
+public:
+    energy_ledger const& ledger() const noexcept { return ledger_; }
+
+    /// The next step that is kept begins a new ledger.
+    void close() noexcept { open_ = false; }
+
+    /// Work done at once from outside, J: velocities given to particles.
+    void book_work(double work) noexcept {
+        if (!open_) return;
+        ledger_.external += work;
+        work_ahead_ += work;
+    }
+
+    /// Enters one step. Work is booked in halves: with the force before and the force after each displacement.
+    /// \param pairs of bonds, contacts and walls
+    /// \param fracture taken out by failing bonds in this step, J
+    /// \param flow nullptr without fluid
+    template <class Flow>
+    void keep(pair_energy const& pairs, double fracture, std::span<motion_report<Real> const> reports, double dt,
+              Flow const* flow) {
+        motion_report<Real> total;
+        for (auto const& r : reports) {
+            total.kinetic += r.kinetic;
+            total.load_before += r.load_before;
+            total.load_after += r.load_after;
+            total.damping_before += r.damping_before;
+            total.damping_after += r.damping_after;
+        }
+        bool const first = !open_;
+        if (first) {
+            ledger_ = {};
+            work_ahead_ = damping_ahead_ = 0;
+            open_ = true;
+        }
+        ledger_.kinetic = total.kinetic;
+        ledger_.strain = pairs.stored;
+        if (flow) keep_fluid(*flow, first);
+        if (first) {
+            ledger_.initial = ledger_.kinetic + ledger_.strain + ledger_.fluid_storage;
+        } else {
+            ledger_.friction += pairs.dissipated;
+            ledger_.damping += pairs.damped + damping_ahead_ - 0.5 * dt * total.damping_before;
+            ledger_.fracture += fracture;
+            ledger_.external = work_ahead_ + 0.5 * dt * total.load_before;
+        }
+        work_ahead_ = ledger_.external + 0.5 * dt * total.load_after;
+        damping_ahead_ = -0.5 * dt * total.damping_after;
+    }
+
+private:
+    template <class Flow>
+    void keep_fluid(Flow const& flow, bool first) {
+        auto const& now = flow.ledger();
+        if (first) fluid_start_ = now;
+        ledger_.fluid_storage = double(flow.storage_energy());
+        ledger_.fluid_viscous = double(now.dissipation - fluid_start_.dissipation);
+        ledger_.fluid_outflow = -double(now.reservoir_work - fluid_start_.reservoir_work) -
+                                double(now.vapour_work - fluid_start_.vapour_work) -
+                                double(now.prefactor_work - fluid_start_.prefactor_work);
+    }
+
+    energy_ledger ledger_;
+    flow_ledger<Real> fluid_start_;
+    double work_ahead_ = 0, damping_ahead_ = 0;
+    bool open_ = false;
+};
+
+} // namespace lacuna

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include <lacuna/model.hpp>
+#include <lacuna/motion/stable_step.hpp>
+
+namespace lacuna {
+
+/// The time step limits of a simulation in its present state, s.
+struct time_step_limits {
+    double equation_9 = 0;  ///< as the paper gives it: shortest distance over wave speed, from the stiffest light pair
+    double equation_19 = 0; ///< as the paper gives it, for the fluid; infinite without flow
+    double flow = 0;        ///< rigorous, for the fluid alone; infinite without flow
+    double rigorous = 0;    ///< rigorous, for particles with rotation, damping and the stiffness of the fluid
+    /// What a step has to stay below.
+    double critical() const noexcept { return rigorous < flow ? rigorous : flow; }
+};
+
+namespace detail {
+
+/// A pore resists a change of its volume: K_f / V_p times the square of it.
+template <int Dim, class Store, class Flow>
+void add_fluid_stiffness(frequency_bound<Dim>& bound, Store const& store, Flow const& flow) {
+    auto const& net = flow.network();
+    for (std::size_t p = 0; p < net.pores(); ++p) {
+        auto const tractions = flow.pore_tractions(p, store.positions(), store.radii().data());
+        std::array<std::size_t, std::size_t(Dim) + 1> who{};
+        std::array<typename frequency_bound<Dim>::gradient, std::size_t(Dim) + 1> g{};
+        for (std::size_t c = 0; c < who.size(); ++c) {
+            who[c] = std::size_t(net.corner[c][p]);
+            for (int axis = 0; axis < Dim; ++axis) g[c][axis] = double(tractions[c][axis]);
+        }
+        bound.add(who, g, flow.settings().bulk_modulus / double(net.volume[p]));
+    }
+}
+
+} // namespace detail
+
+/// Limits of the time step of the given parts in their present state (MODEL.md section 6).
+/// \param flow nullptr without fluid
+template <class Model, class Store, class Interactions, class Walls, class Flow>
+time_step_limits find_limits(Store const& store, Interactions const& interactions, Walls const& walls, Flow const* flow,
+                             typename Model::damping::parameters const& damping) {
+    using damping_type = typename Model::damping;
+    using point = vec<double, Model::dim>;
+    constexpr bool dashed = damping_type::acts_on_pairs;
+    auto const dashpot = [&](double stiffness, double mass_i, double mass_j) {
+        return damping_type::pair_force(damping, stiffness, mass_i, mass_j, 1.0);
+    };
+    frequency_bound<Model::dim> bound(store.size()), dashpots(dashed ? store.size() : 0);
+    for (std::size_t k = 0; k < store.size(); ++k)
+        for (int axis = 0; axis < frequency_bound<Model::dim>::freedoms; ++axis) {
+            bound.set_mobility(k, axis, double(store.mobility(k, axis)));
+            if constexpr (dashed) dashpots.set_mobility(k, axis, double(store.mobility(k, axis)));
+        }
+    double wave = std::numeric_limits<double>::infinity();
+    interactions.for_each_stiffness(store, [&](std::size_t i, std::size_t j, point const& normal, double kn, double ks,
+                                               double prestress, double li, double lj) {
+        bound.add_pair(i, j, normal, kn, ks, prestress, li, lj);
+        double const mass_i = double(store.mass(i)), mass_j = double(store.mass(j));
+        if constexpr (dashed) dashpots.add_pair(i, j, normal, dashpot(kn, mass_i, mass_j), 0, 0, li, lj);
+        wave = std::min(wave, std::sqrt(std::min(mass_i, mass_j) / kn));
+    });
+    walls.for_each_stiffness(store, [&](std::size_t k, point const& normal, double kn, double ks, double lever) {
+        bound.add_support(k, normal, kn, ks, lever);
+        double const twice = 2 * double(store.mass(k));
+        if constexpr (dashed) dashpots.add_support(k, normal, dashpot(kn, twice, twice), 0, lever);
+    });
+    time_step_limits result;
+    result.equation_9 = wave;
+    result.equation_19 = result.flow = std::numeric_limits<double>::infinity();
+    if constexpr (has_fluid<Model>)
+        if (flow) {
+            detail::add_fluid_stiffness(bound, store, *flow);
+            result.equation_19 = double(flow->equation_19_time_step());
+            result.flow = double(flow->critical_time_step());
+        }
+    double const against_motion = 1 + std::fabs(damping_type::particle_force(damping, 1.0, -1.0));
+    result.rigorous = bound.time_step(dashpots, against_motion);
+    return result;
+}
+
+} // namespace lacuna

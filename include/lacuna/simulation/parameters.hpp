@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <lacuna/core/error.hpp>
+#include <lacuna/interactions/interaction_parameters.hpp>
+#include <lacuna/interactions/walls.hpp>
+#include <lacuna/model.hpp>
+#include <lacuna/particles/material.hpp>
+
+namespace lacuna {
+
+/// Settings of a simulation; they nest those of its parts. SI units.
+template <class Model>
+struct simulation_parameters {
+    static constexpr int dim = Model::dim;
+    using material = material_of<typename Model::contact_law, typename Model::bond_law>;
+
+    std::vector<material> materials{material{}};    ///< a particle's material number counts these
+    double thickness = 1;                           ///< out of plane, m; 2D only
+    mass_model mass = dim == 2 ? mass_model::disc : mass_model::sphere;
+    vec<double, dim> gravity{};                     ///< m/s^2
+    interaction_parameters interactions{};
+    typename Model::damping::parameters damping{};
+    std::vector<wall<typename Model::contact_law, dim>> walls{};
+    typename Model::flow::parameters flow{};
+    double time_step = 0;                           ///< s; 0: safety times the critical time step
+    double safety = 0.2;                            ///< fraction of the critical time step
+    bool allow_unstable_step = false;               ///< run even with a time step above the bound
+    double start_time = 0;                          ///< s
+    int threads = 1;                                ///< takes effect in programs built with OpenMP
+    /// Keep the forces of all pairs after a step, for pair_force(). Without, a run on one thread without walls and
+    /// fluid forgets each force once it has acted, which saves a third of the memory traffic of large models.
+    bool keep_pair_forces = true;
+
+    /// \throws std::invalid_argument naming the part, the field, the value and the rule.
+    void validate() const {
+        if (materials.empty()) refuse("materials.size()", 0.0, "at least 1");
+        for (std::size_t m = 0; m < materials.size(); ++m) materials[m].validate("materials[" + std::to_string(m) + "]");
+        require_positive("thickness", thickness);
+        for (int axis = 0; axis < dim; ++axis) require_finite("gravity", gravity[axis]);
+        interactions.validate("interactions");
+        damping.validate("damping");
+        for (std::size_t w = 0; w < walls.size(); ++w) walls[w].validate("walls[" + std::to_string(w) + "]");
+        flow.validate("flow");
+        require_not_negative("time_step", time_step);
+        require_positive("safety", safety);
+        require_finite("start_time", start_time);
+        require_in("threads", threads, 1, 1024);
+    }
+};
+
+} // namespace lacuna
