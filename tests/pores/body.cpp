@@ -33,7 +33,6 @@ struct body {
     body() {
         p.bulk_modulus = 1000;
         p.conductivity = 1;
-        p.thickness = 1;
         p.skip_ratio = std::numeric_limits<double>::infinity();
         p.aperture = {0.1, 1, 1};
     }
@@ -41,15 +40,64 @@ struct body {
     pore_mesh<2> mesh() const { return triangulate_body(points(), r.data()); }
     template <class Boundary = all_sealed>
     solver flow(Boundary const& boundary = {}) const {
-        return {p, make_pore_network(mesh(), points(), r.data(), boundary), points(), r.data()};
+        return {p, make_pore_network(mesh(), points(), r.data(), boundary), 1.0, points(), r.data()};
     }
-    /// Forces of a solver's pressures, at a stride of three numbers a particle; the third stays 0.
-    std::vector<double> tractions(solver const& flow) const {
-        std::vector<double> force(3 * x.size(), 0.0);
-        flow.add_tractions(points(), r.data(), force.data(), 3);
+    /// The records of a particle store: {x, y, arc, radius}, and those of two ghosts.
+    record_column<double> place() const {
+        record_column<double> column;
+        column.resize(x.size() + 2);
+        for (std::size_t i = 0; i < x.size() + 2; ++i) {
+            bool const ghost = i >= x.size();
+            column.at(i, 0) = ghost ? double(i - x.size()) : x[i][0];
+            column.at(i, 1) = ghost ? 0 : x[i][1];
+            column.at(i, 2) = 77;
+            column.at(i, 3) = ghost ? 0.25 : r[i];
+        }
+        return column;
+    }
+    /// One step without forces between particles.
+    void step(solver& flow, double dt) const { flow.step<true>(place(), no_force, dt); }
+    /// Forces of a solver's pressures, three numbers a particle; the third stays 0.
+    std::vector<double> tractions(solver flow) const {
+        step(flow, 0);
+        return written(flow);
+    }
+    /// The same as the last step left them.
+    std::vector<double> written(solver const& flow, int threads = 1) const {
+        record_column<double> extra;
+        extra.assign(x.size(), record<double>(9.0));
+        flow.write_tractions(extra, threads);
+        std::vector<double> force;
+        for (std::size_t i = 0; i < x.size(); ++i) {
+            for (int lane = 0; lane < 3; ++lane) force.push_back(extra.at(i, lane));
+            REQUIRE(extra.at(i, 3) == 0);
+        }
         return force;
     }
+    /// Void of a pore by the cosine rule and the standard library, at a thickness of 1.
+    double void_of(std::array<std::int32_t, 3> const& corners) const {
+        double area = 0;
+        for (std::size_t c = 0; c < 3; ++c) {
+            auto const i = std::size_t(corners[c]), j = std::size_t(corners[(c + 1) % 3]),
+                       k = std::size_t(corners[(c + 2) % 3]);
+            double const one = norm(x[j] - x[i]), other = norm(x[k] - x[i]), across = norm(x[k] - x[j]);
+            area += cross(x[i], x[j]) / 2 - r[i] * r[i] / 2 *
+                    std::acos((one * one + other * other - across * across) / (2 * one * other));
+        }
+        return area;
+    }
+    /// Eq. 16 on corner `c` of a pore at 1 Pa: over the chord between its two joints.
+    point push_on(std::array<std::int32_t, 3> const& corners, std::size_t c) const {
+        auto const i = std::size_t(corners[c]), j = std::size_t(corners[(c + 1) % 3]),
+                   k = std::size_t(corners[(c + 2) % 3]);
+        return perpendicular(joint_point(x[i], x[k], r[i], r[k]) - joint_point(x[i], x[j], r[i], r[j]));
+    }
+    static constexpr double no_force[4] = {0, 0, 0, 0};
 };
+
+std::array<std::int32_t, 3> corners_of(pore_network<double, 2> const& net, std::size_t pore) {
+    return {net.corner[0][pore], net.corner[1][pore], net.corner[2][pore]};
+}
 
 /// A disc with six touching neighbours; the middle one is number 0.
 body hexagon() {
@@ -128,7 +176,7 @@ TEST_CASE("pores of a rhombus and of a ring add up to the merged ones") {
 }
 
 TEST_CASE("any uniform pressure leaves a body's momentum and spin alone, and its inner discs") {
-    auto const b = scattered(29);
+    auto const b = scattered(29, 9, 12, 0.6, 0.9);
     auto flow = b.flow();
     auto const& net = flow.network();
     REQUIRE(net.pores() > 150);
@@ -155,32 +203,147 @@ TEST_CASE("any uniform pressure leaves a body's momentum and spin alone, and its
     REQUIRE_THAT(moment, WithinAbs(0, 1e-10));
 }
 
-TEST_CASE("tractions summed by throats are those summed by pores, and the same bits in pieces") {
-    auto const b = scattered(31);
+TEST_CASE("tractions are those of eq. 16, pore by pore") {
+    auto const b = scattered(31, 9, 12, 0.6, 0.9);
     auto flow = b.flow();
     std::mt19937_64 engine(1);
     std::vector<double> expected(3 * b.x.size(), 0.0);
     for (std::size_t k = 0; k < flow.network().pores(); ++k) {
         double const p = uniform(engine) - 0.5;
         flow.set_pressure(k, p);
+        auto const corners = corners_of(flow.network(), k);
         for (std::size_t c = 0; c < 3; ++c) {
-            auto const at = [&](std::size_t turn) { return std::size_t(flow.network().corner[(c + turn) % 3][k]); };
-            std::size_t const i = at(0), j = at(1), m = at(2);
-            auto const t = pore_traction(b.x[i], b.x[j], b.x[m], b.r[i], b.r[j], b.r[m], 1.0);
-            expected[3 * i] += p * t[0];
-            expected[3 * i + 1] += p * t[1];
-            REQUIRE(flow.pore_tractions(k, b.points(), b.r.data())[c] == t);
+            auto const t = b.push_on(corners, c);
+            for (std::size_t axis = 0; axis < 2; ++axis) {
+                expected[3 * std::size_t(corners[c]) + axis] += p * t[int(axis)];
+                REQUIRE_THAT(flow.pore_tractions(k, b.points(), b.r.data())[c][int(axis)],
+                             WithinAbs(t[int(axis)], 1e-14));
+            }
         }
     }
     auto const force = b.tractions(flow);
     for (std::size_t k = 0; k < force.size(); ++k) REQUIRE_THAT(force[k], WithinAbs(expected[k], 1e-13));
+}
 
-    // Added to what is there, at another stride, and in pieces.
-    std::vector<double> pieces(5 * b.x.size(), 0.0);
-    for (std::size_t begin = 0; begin < b.x.size(); begin += 7)
-        flow.add_tractions(b.points(), b.r.data(), pieces.data(), 5, begin, std::min(begin + 7, b.x.size()));
-    for (std::size_t i = 0; i < b.x.size(); ++i)
-        for (std::size_t c = 0; c < 5; ++c) REQUIRE(pieces[5 * i + c] == (c < 3 ? force[3 * i + c] : 0.0));
+TEST_CASE("a step follows its formulas throat by throat and pore by pore, for any number of pores") {
+    // From a few pores, fewer than a pack holds, to packs that are full or not.
+    int const columns = GENERATE(2, 3, 4, 5, 6, 7, 8, 9, 10, 30);
+    auto b = scattered(53, columns < 30 ? 2 : 9, columns, 0.6, 1.05);
+    auto flow = b.flow([](auto const& throat) -> throat_boundary<double> {
+        return {throat.side == body_side::left ? boundary_kind::drained : boundary_kind::sealed, 0.4};
+    });
+    auto const before = flow.network();
+    std::mt19937_64 engine(6);
+    auto pressure = before.pressure;
+    for (std::size_t k = 0; k < before.pores(); ++k) flow.set_pressure(k, pressure[k] = uniform(engine) - 0.5);
+    double const energy = flow.storage_energy();
+    double stored = 0;
+    for (std::size_t k = 0; k < before.pores(); ++k) stored += before.volume[k] * pressure[k] * pressure[k] / 2000;
+    REQUIRE_THAT(energy, WithinRel(stored, 1e-13));
+
+    // Pair forces: records in the reverse order of the throats, none for every fourth.
+    std::vector<double> forces(4 * before.throats() + 4, 99.0);
+    std::size_t const open = before.open_throats();
+    std::vector<double> normal(open, 0.0);
+    flow.map_throats([&](std::int32_t i, std::int32_t j) -> int {
+        std::size_t t = 0;
+        while (before.throat_particle[0][t] != i || before.throat_particle[1][t] != j) ++t;
+        REQUIRE(t < open);
+        if (t % 4 == 3) return -1;
+        normal[t] = 4 * uniform(engine) - 3;
+        forces[4 * (open - t) + 3] = normal[t];
+        return int(4 * (open - t));
+    });
+    for (auto& x : b.x) x += point{0.01 * (uniform(engine) - 0.5), 0.01 * (uniform(engine) - 0.5)};
+    double const dt = 1e-4;
+    flow.step<true>(b.place(), forces.data(), dt);
+
+    auto const& net = flow.network();
+    std::vector<double> inflow(net.pores(), 0.0), expected(3 * b.x.size(), 0.0);
+    for (std::size_t t = 0; t < open; ++t) {
+        auto const i = std::size_t(net.throat_particle[0][t]), j = std::size_t(net.throat_particle[1][t]);
+        double const gap = norm(b.x[j] - b.x[i]) - b.r[i] - b.r[j];
+        double const aperture = normal[t] < 0 ? 0.1 / (1 - normal[t]) : 0.1 + std::max(gap, 0.0);
+        REQUIRE_THAT(net.aperture[t], WithinRel(aperture, 1e-13));
+        double const conductance = aperture * aperture * aperture / (b.r[i] + b.r[j]);
+        REQUIRE_THAT(net.conductance[t], WithinRel(conductance, 1e-12));
+        auto const one = std::size_t(net.throat_pore[0][t]);
+        double const far = t < net.interior_throats ? pressure[std::size_t(net.throat_pore[1][t])] : 0.4;
+        double const q = conductance * (far - pressure[one]);
+        REQUIRE_THAT(net.flow[t], WithinAbs(q, 1e-16 + 1e-12 * std::fabs(q)));
+        inflow[one] += q * dt;
+        if (t < net.interior_throats) inflow[std::size_t(net.throat_pore[1][t])] -= q * dt;
+    }
+    double after = 0;
+    for (std::size_t k = 0; k < net.pores(); ++k) {
+        auto const corners = corners_of(net, k);
+        double const least = 1e-3 * net.size[k], free = b.void_of(corners), volume = std::max(free, least);
+        REQUIRE_THAT(net.volume[k], WithinAbs(volume, 1e-13));
+        double const p = pressure[k] + 1000 / volume * (inflow[k] - (volume - before.volume[k]));
+        REQUIRE_THAT(net.pressure[k], WithinAbs(p, 1e-13 * 1000 / volume));
+        after += volume * p * p / 2000;
+        for (std::size_t c = 0; c < 3; ++c) {
+            auto const t = b.push_on(corners, c);
+            for (std::size_t axis = 0; axis < 2; ++axis)
+                if (free > least) expected[3 * std::size_t(corners[c]) + axis] += net.pressure[k] * t[int(axis)];
+        }
+    }
+    REQUIRE_THAT(flow.storage_energy(), WithinRel(after, 1e-9));
+    REQUIRE_THAT(flow.ledger().mass_residual, WithinAbs(0, 1e-13 * double(net.pores())));
+    auto const force = b.written(flow);
+    for (std::size_t k = 0; k < force.size(); ++k)
+        REQUIRE_THAT(force[k], WithinAbs(expected[k], 1e-11 * (1 + std::fabs(expected[k]))));
+
+    // What lies beyond the last pore and throat adds to nothing: as many steps again, with other neighbours in memory.
+    double content = 0;
+    for (int s = 0; s < 20; ++s) {
+        auto const old = flow.network();
+        flow.step<true>(b.place(), forces.data(), dt);
+        content = 0;
+        for (std::size_t k = 0; k < net.pores(); ++k)
+            content += net.volume[k] * (net.pressure[k] - old.pressure[k]) / 1000 + net.volume[k] - old.volume[k];
+        double in = 0;
+        for (std::size_t t = net.interior_throats; t < open; ++t) in += net.flow[t] * dt;
+        REQUIRE_THAT(content, WithinAbs(in, 1e-12));
+    }
+}
+
+TEST_CASE("threads and the ledger change no bit of a step") {
+    auto const b = scattered(59, 40, 40, 0.6, 0.95);
+    auto const start = b.flow([](auto const& throat) -> throat_boundary<double> {
+        return {throat.side == body_side::top ? boundary_kind::drained : boundary_kind::sealed, 0.3};
+    });
+    REQUIRE(start.network().pores() > 2048);
+    auto const run = [&](int threads, bool ledger) {
+        auto flow = start;
+        std::mt19937_64 engine(8);
+        for (std::size_t k = 0; k < flow.network().pores(); ++k) flow.set_pressure(k, uniform(engine));
+        auto moved = b;
+        for (int s = 0; s < 5; ++s) {
+            for (auto& x : moved.x) x += point{0.01 * (uniform(engine) - 0.5), 0.01 * (uniform(engine) - 0.5)};
+            if (ledger)
+                flow.step<true>(moved.place(), body::no_force, 1e-4, threads);
+            else
+                flow.step<false>(moved.place(), body::no_force, 1e-4, threads);
+        }
+        return flow;
+    };
+    auto const one = run(1, true);
+    auto const forces = b.written(one);
+    for (int threads : {2, 3, 5}) {
+        auto const many = run(threads, true);
+        REQUIRE(many.network().pressure == one.network().pressure);
+        REQUIRE(many.network().flow == one.network().flow);
+        REQUIRE(many.ledger().dissipation == one.ledger().dissipation);
+        REQUIRE(many.ledger().pressure_work == one.ledger().pressure_work);
+        REQUIRE(many.ledger().mass_residual == one.ledger().mass_residual);
+        REQUIRE(b.written(many, threads) == forces);
+    }
+    REQUIRE(one.ledger().dissipation > 0);
+    auto const bare = run(2, false);
+    for (std::size_t k = 0; k < one.network().pores(); ++k)
+        REQUIRE_THAT(bare.network().pressure[k], WithinRel(one.network().pressure[k], 1e-9));
+    REQUIRE(bare.ledger().dissipation == 0);
 }
 
 TEST_CASE("the pressures' work on moving discs is that of the pores' change of volume") {
@@ -273,9 +436,11 @@ TEST_CASE("a body drains through the sides chosen, and through no other") {
     auto drained = b.flow([](auto const& throat) -> throat_boundary<double> {
         return {throat.side == body_side::top ? boundary_kind::drained : boundary_kind::sealed, 0.0};
     });
-    auto const start = [](solver& flow) {
+    auto place = b.place();
+    for (std::size_t i = 0; i < b.x.size(); ++i) place.at(i, 3) = 2; // overlaps everywhere: closed gaps, no force
+    auto const start = [&](solver& flow) {
         for (std::size_t k = 0; k < flow.network().pores(); ++k) flow.set_pressure(k, 1.0);
-        flow.refresh_apertures([](int, int) { return throat_state<double>{0, 0}; });
+        flow.refresh_apertures(place, body::no_force);
     };
     start(sealed);
     start(drained);
@@ -310,15 +475,16 @@ TEST_CASE("mass and energy balance in every step while the body moves") {
         auto const before = flow.network();
         auto const totals = flow.ledger();
         double const energy = flow.storage_energy();
-        flow.refresh_geometry(b.points(), b.r.data());
         auto const gap_of = [&](int one, int other) {
             auto const i = std::size_t(one), j = std::size_t(other);
             return norm(b.x[j] - b.x[i]) - b.r[i] - b.r[j];
         };
-        flow.refresh_apertures([&](int i, int j) {
-            return throat_state<double>{std::min(10 * gap_of(i, j), 0.0), gap_of(i, j)};
+        std::vector<double> forces;
+        flow.map_throats([&](int i, int j) {
+            forces.insert(forces.end(), {0, 0, 0, std::min(10 * gap_of(i, j), 0.0)});
+            return int(forces.size()) - 4;
         });
-        flow.advance(dt);
+        flow.step<true>(b.place(), forces.data(), dt);
         auto const& net = flow.network();
         double content = 0, gross = 0, inflow = 0;
         for (std::size_t k = 0; k < net.pores(); ++k) {
@@ -404,29 +570,64 @@ TEST_CASE("a pore crushed flat keeps its least volume and a finite time step") {
     REQUIRE(flow.critical_time_step() > 0);
 }
 
-TEST_CASE("skipped throats are looked at again when they may have opened") {
+TEST_CASE("a pore at its least volume exerts no force, and the energy adds up") {
     auto b = hexagon();
+    auto flow = b.flow();
+    for (std::size_t k = 0; k < 6; ++k) flow.set_pressure(k, 2.0);
+    auto const rest = b.x;
+    for (auto& x : b.x) x = {x[0], 0.5 * x[1]};
+    b.step(flow, 1e-9);
+    auto const flat = b.written(flow);
+    for (double const f : flat) REQUIRE(f == 0);
+    // Crushed to a thousandth of the triangle: the pressure that this takes is there, but does no work any more.
+    double const least = 1e-3 * std::sqrt(3.0), v0 = std::sqrt(3.0) - pi / 2;
+    REQUIRE_THAT(flow.network().pressure[0], WithinRel(2 + 1000 * (v0 - least) / least, 1e-9));
+    auto const totals = flow.ledger();
+    double const energy = flow.storage_energy();
+    for (auto& x : b.x) x = x * 0.99;
+    b.step(flow, 1e-9);
+    REQUIRE(flow.ledger().pressure_work == totals.pressure_work);
+    REQUIRE_THAT(flow.storage_energy(), WithinRel(energy, 1e-12));
+    b.x = rest;
+    b.step(flow, 1e-9);
+    auto const force = b.written(flow);
+    for (std::size_t i = 1; i < 7; ++i) REQUIRE(std::fabs(force[3 * i]) + std::fabs(force[3 * i + 1]) > 1);
+    auto const& l = flow.ledger();
+    double const gained = l.prefactor_work - totals.prefactor_work - (l.pressure_work - totals.pressure_work) -
+                          (l.dissipation - totals.dissipation);
+    REQUIRE_THAT(flow.storage_energy() - energy, WithinAbs(gained, 1e-12 * energy));
+}
+
+TEST_CASE("skipped throats are looked at again when they may have opened") {
+    auto b = scattered(61, 6, 6, 0.95, 1.0);
     b.p.skip_ratio = 10;
     auto flow = b.flow();
-    int calls = 0;
-    double gap = 0;
-    auto const lookup = [&](std::size_t throat, int i, int j) {
-        ++calls;
-        REQUIRE(flow.network().throat_particle[0][throat] == i);
-        REQUIRE(flow.network().throat_particle[1][throat] == j);
-        return throat_state<double>{0, throat == 2 ? gap : 0.0};
+    auto const open = flow.network().open_throats();
+    REQUIRE(open > 40);
+    auto const limit = [&](std::size_t t) {
+        auto const& net = flow.network();
+        return 2 / (1000 * net.conductance[t] * (1 / net.volume[std::size_t(net.throat_pore[0][t])] +
+                                                 1 / net.volume[std::size_t(net.throat_pore[1][t])]));
     };
-    // Limit of a throat: V / (K_f C) = 0.161 / (1000 * 0.0005) = 0.32.
-    REQUIRE(flow.skip_idle_throats(0.01) == 6);
-    flow.refresh_apertures(lookup);
-    REQUIRE(calls == 0);
-    gap = 0.9;
-    flow.refresh_apertures(lookup, true);
-    REQUIRE(calls == 6);
-    REQUIRE(flow.skip_idle_throats(0.01) == 5);
-    flow.refresh_apertures(lookup);
-    REQUIRE(calls == 7);
-    REQUIRE_THAT(flow.network().aperture[2], WithinRel(1.0, 1e-15));
+    REQUIRE(flow.skip_idle_throats(1e-9) == open);
+    flow.set_pressure(0, 1.0);
+    b.step(flow, 1e-6);
+    for (double const q : flow.network().flow) REQUIRE(q == 0);
+    double const aperture = flow.network().aperture[2];
+    flow.refresh_apertures(b.place(), body::no_force);
+    REQUIRE(flow.network().aperture[2] != aperture);
+    std::vector<double> limits;
+    for (std::size_t t = 0; t < open; ++t) limits.push_back(limit(t));
+    auto sorted = limits;
+    std::sort(sorted.begin(), sorted.end());
+    double const duration = (sorted[9] + sorted[10]) / 2 / 10;
+    REQUIRE(flow.skip_idle_throats(duration) == open - 10);
+    for (std::size_t k = 0; k < flow.network().pores(); ++k) flow.set_pressure(k, double(k));
+    b.step(flow, 1e-9);
+    for (std::size_t t = 0; t < open; ++t) {
+        REQUIRE((flow.network().flow[t] != 0) == (limits[t] < 10 * duration));
+        REQUIRE((flow.network().idle[t] == 0) == (limits[t] < 10 * duration));
+    }
 }
 
 TEST_CASE("an earlier state can be restored, and goes on with the same bits") {
@@ -449,8 +650,7 @@ TEST_CASE("an earlier state can be restored, and goes on with the same bits") {
 TEST_CASE("an empty body has no pores and no limits") {
     body b;
     auto flow = b.flow();
-    flow.refresh_geometry(b.points(), b.r.data());
-    flow.advance(1);
+    b.step(flow, 1);
     REQUIRE(flow.network().pores() == 0);
     REQUIRE(flow.storage_energy() == 0);
     REQUIRE(flow.critical_time_step() == std::numeric_limits<double>::infinity());
@@ -479,15 +679,29 @@ TEST_CASE("single precision follows double") {
     for (auto const& y : b.x) x.push_back({float(y[0]), float(y[1])});
     auto flow = b.flow();
     explicit_flow::solver<float, 2> single(
-        b.p, make_pore_network(triangulate_body(view_points(x), r.data()), view_points(x), r.data()), view_points(x),
-        r.data());
+        b.p, make_pore_network(triangulate_body(view_points(x), r.data()), view_points(x), r.data()), 1.0f,
+        view_points(x), r.data());
     flow.set_pressure(0, 1);
     single.set_pressure(0, 1);
     double const dt = 0.5 * flow.critical_time_step();
+    record_column<float> place, extra;
+    place.resize(9);
+    for (std::size_t i = 0; i < 9; ++i) {
+        place.at(i, 0) = i < 7 ? x[i][0] : float(i);
+        place.at(i, 1) = i < 7 ? x[i][1] : 0.0f;
+        place.at(i, 3) = 1;
+    }
+    float const none[4] = {0, 0, 0, 0};
     for (int i = 0; i < 20; ++i) {
-        flow.advance(dt);
-        single.advance(float(dt));
+        b.step(flow, dt);
+        single.step<true>(place, none, float(dt));
     }
     for (std::size_t k = 0; k < 6; ++k)
         REQUIRE_THAT(double(single.network().pressure[k]), WithinAbs(flow.network().pressure[k], 1e-4));
+    extra.resize(7);
+    single.write_tractions(extra);
+    auto const force = b.written(flow);
+    for (std::size_t i = 0; i < 7; ++i)
+        for (int axis = 0; axis < 2; ++axis)
+            REQUIRE_THAT(double(extra.at(i, axis)), WithinAbs(force[3 * i + std::size_t(axis)], 1e-4));
 }

@@ -308,12 +308,15 @@ TEST_CASE("parameters and bare networks out of range are refused by name") {
     };
     refused([](auto& q) { q.bulk_modulus = 0; }, "flow.bulk_modulus = 0: must be > 0");
     refused([](auto& q) { q.conductivity = -1; }, "flow.conductivity");
-    refused([](auto& q) { q.thickness = std::nan(""); }, "flow.thickness");
     refused([](auto& q) { q.minimum_volume_fraction = 0; }, "flow.minimum_volume_fraction");
     refused([](auto& q) { q.minimum_pressure = 1; }, "flow.minimum_pressure");
     refused([](auto& q) { q.minimum_pressure = -1, q.initial_pressure = -2; }, "flow.initial_pressure");
     refused([](auto& q) { q.skip_ratio = 0; }, "flow.skip_ratio");
     refused([](auto& q) { q.aperture.gap_factor = 2; }, "flow.aperture.gap_factor");
+    std::vector<vec<double, 2>> const none;
+    REQUIRE_THROWS_WITH((explicit_flow::solver<double, 2>(p, make_bare_network<double>({1}, {}), std::nan(""),
+                                                          view_points(none), nullptr)),
+                        contains_text("thickness"));
     REQUIRE_THROWS_WITH(make_bare_network<double>({1, -1}, {}), contains_text("volume of pore 1"));
     REQUIRE_THROWS_WITH(make_bare_network<double>({1, 1}, {{0, 2, 1, 1}}), contains_text("throat 0.second = 2"));
     REQUIRE_THROWS_WITH(make_bare_network<double>({1, 1}, {{1, 1, 1, 1}}), contains_text("throat 0.second = 1"));

@@ -46,6 +46,11 @@ TEST_CASE("angle of a vector agrees with the standard library") {
         double const y = std::fabs(3 * std::sin(angle)), x = 3 * std::cos(angle);
         REQUIRE_THAT(detail::upper_angle(y, x), WithinAbs(std::atan2(y, x), 5e-16));
     }
+    for (int k = 0; k <= 400; ++k) { // on both sides of the angles where the reduction changes over
+        double const angle = pi * (k / 4 % 4 * 2 + 1) / 8 + 1e-3 * (k / 400.0 - 0.5);
+        double const y = std::sin(angle), x = std::cos(angle);
+        REQUIRE_THAT(detail::upper_angle(y, x), WithinAbs(std::atan2(y, x), 5e-16));
+    }
     REQUIRE_THAT(detail::upper_angle(0.0, 1.0), WithinAbs(0, 0));
     REQUIRE_THAT(detail::upper_angle(0.0, -1.0), WithinRel(pi, 1e-16));
     REQUIRE_THAT(detail::upper_angle(2.0, 0.0), WithinRel(pi / 2, 1e-16));

@@ -50,10 +50,10 @@ struct contact_force_aperture {
     };
     template <class T>
     static T aperture(parameters const& p, T normal_force, T gap) {
-        T const residual(value_t<T>(p.residual_aperture));
-        T const half(value_t<T>(p.half_force));
-        T const factor(value_t<T>(p.gap_factor));
-        T const squeezed = residual * half / (half - min(normal_force, T(0)));
+        T residual(value_t<T>(p.residual_aperture));
+        T half(value_t<T>(p.half_force));
+        T factor(value_t<T>(p.gap_factor));
+        T squeezed = residual * half / (half - min(normal_force, T(0)));
         return select(normal_force < T(0), squeezed, residual + factor * max(gap, T(0)));
     }
 };

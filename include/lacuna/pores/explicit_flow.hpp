@@ -3,21 +3,24 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <utility>
 #include <vector>
 
 #include <lacuna/core/error.hpp>
-#include <lacuna/core/pack.hpp>
+#include <lacuna/core/parallel.hpp>
+#include <lacuna/core/points.hpp>
+#include <lacuna/core/records.hpp>
 #include <lacuna/laws/aperture.hpp>
+#include <lacuna/pores/corner_rows.hpp>
 #include <lacuna/pores/flow.hpp>
 #include <lacuna/pores/flow_parameters.hpp>
+#include <lacuna/pores/flow_sums.hpp>
 #include <lacuna/pores/flow_time_step.hpp>
-#include <lacuna/pores/geometry.hpp>
 #include <lacuna/pores/pore_network.hpp>
+#include <lacuna/pores/pore_pass.hpp>
+#include <lacuna/pores/throat_pass.hpp>
 #include <lacuna/pores/tractions.hpp>
 
 namespace lacuna {
@@ -26,6 +29,9 @@ namespace lacuna {
 ///
 /// A pore's pressure below `minimum_pressure` is held there; the volume that the liquid does not fill is remembered
 /// as vapour, which closes before the pressure rises again, so that no mass is made.
+///
+/// In the coupled step: step(), then write_tractions(). Neither allocates memory; both give the same bits for any
+/// number of threads.
 template <class Real, int Dim, aperture_law Aperture>
 class explicit_flow_solver {
     static_assert(Dim == 2, "explicit_flow: pores exist in the plane only, so far (Dim = 2)");
@@ -36,34 +42,27 @@ public:
 
     /// Rigid pores: a bare network, whose volumes and apertures stay as given.
     /// \throws std::invalid_argument for parameters out of range.
-    explicit_flow_solver(parameters const& p, network_type network) : parameters_(p), network_(std::move(network)) {
-        parameters_.validate("flow");
-        auto const count = network_.pores();
-        std::fill(network_.pressure.begin(), network_.pressure.end(), Real(p.initial_pressure));
-        floor_.assign(count, Real(0));
-        inflow_.assign(count, Real(0));
-        next_.assign(count, Real(0));
-        active_.reserve(network_.open_throats());
-        if (!network_.bare()) {
-            for (std::size_t i = 0; i < count; ++i)
-                floor_[i] = Real(p.minimum_volume_fraction * p.thickness) * network_.size[i];
-            Real const aperture = Aperture::aperture(p.aperture, Real(0), Real(0));
-            std::fill(network_.aperture.begin(), network_.aperture.end(), aperture);
-        }
-        for (std::size_t t = 0; t < network_.throats(); ++t) set_conductance(t);
-        collect_active();
-    }
+    explicit_flow_solver(parameters const& p, network_type network)
+        : explicit_flow_solver(p, std::move(network), Real(1)) {}
 
     /// Pores of a body, at its present geometry and the apertures of pairs at zero force that touch.
+    /// \param thickness of the body, out of the plane, m; > 0
     /// \param points centres, m; \param radii m: of all particles, here and below
-    explicit_flow_solver(parameters const& p, network_type network, points_view<Real, Dim> points, Real const* radii)
-        : explicit_flow_solver(p, std::move(network)) {
+    /// \throws std::invalid_argument for parameters out of range.
+    explicit_flow_solver(parameters const& p, network_type network, Real thickness, points_view<Real, Dim> points,
+                         Real const* radii)
+        : explicit_flow_solver(p, std::move(network), thickness) {
         refresh_geometry(points, radii);
         network_.old_volume = network_.volume;
     }
 
+    /// The same with the thickness of the parameters.
+    explicit_flow_solver(parameters const& p, network_type network, points_view<Real, Dim> points, Real const* radii)
+        : explicit_flow_solver(p, std::move(network), Real(p.thickness), points, radii) {}
+
     network_type const& network() const noexcept { return network_; }
     parameters const& settings() const noexcept { return parameters_; }
+    /// Kept by the steps with a ledger.
     flow_ledger<Real> const& ledger() const noexcept { return ledger_; }
 
     void set_pressure(std::size_t pore, Real pressure) noexcept { network_.pressure[pore] = pressure; }
@@ -72,55 +71,66 @@ public:
     void restore(network_type network, flow_ledger<Real> const& ledger) {
         network_ = std::move(network);
         ledger_ = ledger;
+        pores_.set_fillers(network_);
         collect_active();
     }
 
-    /// New pore volumes. The volume change that advance() sees is that since its last call.
-    void refresh_geometry(points_view<Real, Dim> points, Real const* radii) noexcept {
+    /// New pore volumes. The volume change that the next step sees is that since the last one. step() does it itself.
+    void refresh_geometry(points_view<Real, Dim> points, Real const* radii) {
         if (network_.bare()) return;
-        auto const thickness = Real(parameters_.thickness);
-        for (std::size_t first = 0; first < network_.pores(); first += width) {
-            int const lanes = lanes_from(first);
-            vec<row, 2> x[3];
-            row r[3];
-            for (std::size_t c = 0; c < 3; ++c)
-                for (int k = 0; k < width; ++k) {
-                    auto const i = std::size_t(network_.corner[c][first + std::size_t(std::min(k, lanes - 1))]);
-                    x[c][0].v[k] = points(i, 0);
-                    x[c][1].v[k] = points(i, 1);
-                    r[c].v[k] = radii[i];
-                }
-            store(network_.volume, first, lanes,
-                  pore_volume(x[0], x[1], x[2], r[0], r[1], r[2], row(thickness), load(floor_, first, lanes)));
+        record_column<Real> place;
+        place.resize(points.size());
+        for (std::size_t k = 0; k < points.size(); ++k) {
+            place.at(k, 0) = points(k, 0);
+            place.at(k, 1) = points(k, 1);
+            place.at(k, 3) = radii[k];
         }
+        // The step's own arithmetic, so that a body at rest has no volume change, not even a rounding.
+        auto old_volume = network_.old_volume, pressure = network_.pressure, vapour = network_.vapour;
+        for (int c = 0; c < pores_.chunks(); ++c)
+            pores_.template advance<true, false>(c, network_, place.data(), constants(), Real(0), false, pore_sums_[0]);
+        network_.old_volume = std::move(old_volume);
+        network_.pressure = std::move(pressure);
+        network_.vapour = std::move(vapour);
     }
 
-    /// New apertures from the pairs at the throats; skipped throats keep theirs unless `all`.
-    /// \param lookup callable (particle i, particle j) -> throat_state, or (throat, i, j) -> throat_state
+    /// Tells each throat where the force of its pair is; to be called whenever the pairs' places in memory change.
+    /// \param lookup callable (particle i, particle j) -> where the record of the pair's force begins, in reals from
+    ///        the beginning of all; negative where there is no such pair: no force
+    template <class Lookup>
+    void map_throats(Lookup const& lookup) {
+        if (!network_.bare()) throats_.map(network_, lookup);
+    }
+
+    /// New apertures of all throats, of those that are skipped as well.
+    /// \param place records of the particles, as particle_store has them; here and below
+    /// \param pair_forces records of the pairs' forces, at least one; the fourth number is the normal force, N,
+    ///        positive in tension; here and below
+    void refresh_apertures(record_column<Real> const& place, Real const* pair_forces, int threads = 1) noexcept {
+        if (network_.bare()) return;
+        for_each_chunk(throats_.chunks(true), threads, [&](int c) {
+            throats_.template pass<true, false, Aperture>(c, network_, place.data(), pair_forces,
+                                                          parameters_.aperture);
+        });
+    }
+
+    /// The same for the throats that are not skipped, or `all`.
+    /// \param lookup callable (particle i, particle j) -> throat_state
     template <class Lookup>
     void refresh_apertures(Lookup const& lookup, bool all = false) {
-        if (network_.bare()) return;
-        auto const refresh = [&](std::size_t t) {
-            auto const i = network_.throat_particle[0][t], j = network_.throat_particle[1][t];
-            auto const state = [&] {
-                if constexpr (requires { lookup(t, i, j); })
-                    return lookup(t, i, j);
-                else
-                    return lookup(i, j);
-            }();
-            network_.aperture[t] = Aperture::aperture(parameters_.aperture, Real(state.normal_force), Real(state.gap));
-            set_conductance(t);
-        };
-        if (all)
-            for (std::size_t t = 0; t < network_.open_throats(); ++t) refresh(t);
-        else
-            for (auto const t : active_) refresh(std::size_t(t));
+        for (std::size_t t = 0; t < network_.open_throats() && !network_.bare(); ++t) {
+            if (!all && network_.idle[t]) continue;
+            auto const state = lookup(network_.throat_particle[0][t], network_.throat_particle[1][t]);
+            Real const a = Aperture::aperture(parameters_.aperture, Real(state.normal_force), Real(state.gap));
+            network_.aperture[t] = a;
+            network_.conductance[t] = Real(parameters_.conductivity) * (a * a * a / network_.length[t]);
+        }
     }
 
     /// Leaves out, from now on, the throats through which practically nothing passes within `duration` [s]: those
     /// whose own step limit, 2 / (K_f C (1/V_1 + 1/V_2)), is more than `skip_ratio` times as long (they let at most
     /// 2 / skip_ratio of a pressure difference through), and takes up again those that have opened. Call it after
-    /// refresh_apertures(lookup, true), at the start and whenever throats may have opened.
+    /// refresh_apertures(), at the start and whenever throats may have opened.
     /// \return how many throats are skipped
     /// \throws std::invalid_argument for a duration that is not positive.
     std::size_t skip_idle_throats(Real duration) {
@@ -134,62 +144,56 @@ public:
             if (network_.idle[t]) network_.flow[t] = Real(0);
         }
         collect_active();
-        return network_.open_throats() - active_.size();
+        return network_.open_throats() - throats_.active_throats();
     }
 
-    /// One step of dt [s]: eq. 14 for all throats from the old pressures, then eq. 15 for all pores.
-    void advance(Real dt) noexcept {
-        bool const flowing = !active_.empty();
-        Real in = 0, gross = 0;
-        if (flowing) {
-            for (auto const t : active_) {
-                auto const k = std::size_t(t);
-                network_.flow[k] = network_.conductance[k] * (far_pressure(k, network_.pressure) - near_pressure(k));
-                gross += lacuna::abs(network_.flow[k]) * dt;
-                if (k >= network_.interior_throats) in += network_.flow[k] * dt;
-            }
-            sum_flows(dt);
-        }
-        update_pressures(flowing, in, gross);
-        network_.pressure.swap(next_);
-        if (flowing)
-            for (auto const t : active_) {
-                auto const k = std::size_t(t);
-                auto const a = std::size_t(network_.throat_pore[0][k]);
-                Real const moved = network_.flow[k] * dt;
-                Real const far = (far_pressure(k, network_.pressure) + far_pressure(k, next_)) * Real(0.5);
-                ledger_.dissipation += moved * (far - (network_.pressure[a] + next_[a]) * Real(0.5));
-                if (k >= network_.interior_throats) ledger_.reservoir_work += moved * far;
-            }
-        ledger_.boundary_inflow += in;
+    /// One step of dt [s] of a body: new geometry and apertures, eq. 14 for all throats that are not skipped from the
+    /// old pressures, eq. 15 for all pores, eq. 16's forces from the new pressures.
+    /// \tparam WithLedger also keeps ledger()
+    template <bool WithLedger>
+    void step(record_column<Real> const& place, Real const* pair_forces, Real dt, int threads = 1) noexcept {
+        if (network_.bare())
+            advance<WithLedger>(dt, threads);
+        else
+            take_step<true, WithLedger>(place.data(), pair_forces, dt, threads);
+    }
+    /// The same with volumes and apertures as they are, and without forces: the step of rigid pores.
+    template <bool WithLedger = true>
+    void advance(Real dt, int threads = 1) noexcept {
+        take_step<false, WithLedger>(nullptr, nullptr, dt, threads);
     }
 
-    /// Adds the forces of the pore pressures on all particles, as pores/tractions.hpp has it.
+    /// Writes the forces of the pore pressures, as the last step() left them, for every particle: the record
+    /// {F_x, F_y, 0, 0}, N. A pore at its least volume exerts none: it does not change its volume either.
+    void write_tractions(record_column<Real>& extra, int threads = 1) const noexcept {
+        for_each_chunk(corners_.chunks(), threads, [&](int c) { corners_.write(c, pores_.forces(), extra); });
+    }
+
+    /// Adds the forces of the pore pressures at given places to force[i * stride + 0 and 1], N.
     void add_tractions(points_view<Real, Dim> points, Real const* radii, Real* force,
                        std::size_t stride) const noexcept {
-        if (!network_.bare()) add_tractions(points, radii, force, stride, 0, points.size());
-    }
-    /// The same for particles `begin` to `end` - 1: ranges give the same bits as all at once.
-    void add_tractions(points_view<Real, Dim> points, Real const* radii, Real* force, std::size_t stride,
-                       std::size_t begin, std::size_t end) const noexcept {
-        lacuna::add_tractions(network_, Real(parameters_.thickness), points, radii, force, stride, begin, end);
+        Real const least = Real(parameters_.minimum_volume_fraction) * thickness_;
+        lacuna::add_tractions(network_, thickness_, least, points, radii, force, stride);
     }
 
-    /// Forces on the three corners of a pore for 1 Pa in it, N.
+    /// Forces on the three corners of a pore for 1 Pa in it, N; also of a pore at its least volume.
     std::array<vec<Real, Dim>, 3> pore_tractions(std::size_t pore, points_view<Real, Dim> points,
                                                  Real const* radii) const noexcept {
-        return lacuna::pore_tractions(network_, Real(parameters_.thickness), pore, points, radii);
+        return lacuna::pore_tractions(network_, thickness_, pore, points, radii);
     }
 
     /// Energy stored in the compressed fluid, sum of V p^2 / 2 K_f, J.
     Real storage_energy() const noexcept {
-        Real sum(0);
-        for (std::size_t i = 0; i < network_.pores(); ++i)
-            sum += network_.volume[i] * network_.pressure[i] * network_.pressure[i];
-        return sum / Real(2 * parameters_.bulk_modulus);
+        using lanes = pack<Real, native_width<Real>>;
+        lanes total(Real(0));
+        for (std::size_t p = 0; p < network_.pores(); p += lanes::width) {
+            lanes pressure = lanes::load(network_.pressure.data() + p);
+            total += lanes::load(network_.volume.data() + p) * pressure * pressure;
+        }
+        return sum(total) / Real(2 * parameters_.bulk_modulus);
     }
 
-    /// Largest safe dt of advance(), s, as pores/flow_time_step.hpp has it: skipped throats do not count.
+    /// Largest safe dt of a step, s, as pores/flow_time_step.hpp has it: skipped throats do not count.
     Real critical_time_step() const { return flow_critical_time_step(network_, parameters_.bulk_modulus); }
     /// Eq. 19 as printed, s: not safe where apertures differ. Skipped throats count.
     Real equation_19_time_step() const {
@@ -197,99 +201,69 @@ public:
     }
 
 private:
-    static constexpr int width = native_width<Real>;
-    using row = pack<Real, width>;
-
-    int lanes_from(std::size_t first) const noexcept {
-        return int(std::min(std::size_t(width), network_.pores() - first));
-    }
-    static row load(std::vector<Real> const& from, std::size_t first, int lanes, Real rest = Real(0)) noexcept {
-        if (lanes == width) return row::load(from.data() + first);
-        row r(rest);
-        for (int k = 0; k < lanes; ++k) r.v[k] = from[first + std::size_t(k)];
-        return r;
-    }
-    static void store(std::vector<Real>& to, std::size_t first, int lanes, row const& value) noexcept {
-        if (lanes == width) return value.store(to.data() + first);
-        for (int k = 0; k < lanes; ++k) to[first + std::size_t(k)] = value[k];
-    }
-
-    void set_conductance(std::size_t t) noexcept {
-        Real const a = network_.aperture[t];
-        network_.conductance[t] = t < network_.open_throats()
-                                      ? Real(parameters_.conductivity) * (a * a * a / network_.length[t])
-                                      : Real(0);
-    }
-    void collect_active() {
-        active_.clear();
-        for (std::size_t t = 0; t < network_.open_throats(); ++t)
-            if (!network_.idle[t]) active_.push_back(std::int32_t(t));
-    }
-    Real near_pressure(std::size_t t) const noexcept {
-        return network_.pressure[std::size_t(network_.throat_pore[0][t])];
-    }
-    Real far_pressure(std::size_t t, std::vector<Real> const& pressure) const noexcept {
-        return t < network_.interior_throats ? pressure[std::size_t(network_.throat_pore[1][t])]
-                                             : network_.reservoir_pressure[t];
-    }
-
-    /// Volume that comes into each pore in dt, its throats in a fixed order.
-    void sum_flows(Real dt) noexcept {
-        auto const& table = network_.pore_throats;
-        for (std::size_t i = 0; i < network_.pores(); ++i) {
-            Real sum(0);
-            for (auto e = table.first[i]; e < table.first[i + 1]; ++e) {
-                auto const entry = std::size_t(table.entry[std::size_t(e)]);
-                Real const q = network_.flow[entry / 2];
-                sum += entry % 2 == 0 ? q : -q;
-            }
-            inflow_[i] = sum * dt;
+    explicit_flow_solver(parameters const& p, network_type network, Real thickness)
+        : parameters_(p), thickness_(thickness), network_(std::move(network)) {
+        parameters_.validate("flow");
+        require_positive("thickness", double(thickness));
+        std::fill(network_.pressure.begin(), network_.pressure.end(), Real(p.initial_pressure));
+        if (!network_.bare()) {
+            Real const aperture = Aperture::aperture(p.aperture, Real(0), Real(0));
+            std::fill(network_.aperture.begin(), network_.aperture.end(), aperture);
         }
+        for (std::size_t t = 0; t < network_.open_throats(); ++t) {
+            Real const a = network_.aperture[t];
+            network_.conductance[t] = Real(p.conductivity) * (a * a * a / network_.length[t]);
+        }
+        pores_.build(network_, Real(p.minimum_volume_fraction) * thickness);
+        throats_.build(network_, Real(p.conductivity));
+        pore_sums_.resize(std::size_t(std::max(pores_.chunks(), 1)));
+        throat_sums_.resize(std::size_t(throats_.chunks(true)));
+        std::size_t const particles = network_.particle_throats.first.size() - 1;
+        corners_.build(
+            particles, [&](auto const& visit) { pores_.for_each_corner(network_, visit); }, pores_.zero_offset());
     }
 
-    void update_pressures(bool flowing, Real in, Real gross) noexcept {
-        bool const tears = parameters_.minimum_pressure > -std::numeric_limits<double>::infinity();
-        row const stiffness = Real(parameters_.bulk_modulus), least = Real(parameters_.minimum_pressure);
-        row const compliance = Real(1 / parameters_.bulk_modulus), half = Real(0.5);
-        row content = Real(0), changed = Real(0), work = Real(0), vapour_work = Real(0), prefactor = Real(0);
-        for (std::size_t first = 0; first < network_.pores(); first += width) {
-            int const lanes = lanes_from(first);
-            row const volume = load(network_.volume, first, lanes, Real(1));
-            row const grown = volume - load(network_.old_volume, first, lanes, Real(1));
-            row const old = load(network_.pressure, first, lanes);
-            row const came = flowing ? load(inflow_, first, lanes) : row(Real(0));
-            row next = old + stiffness / volume * (came - grown);
-            row torn = Real(0);
-            if (tears) {
-                row const vapour = load(network_.vapour, first, lanes);
-                row const wanted = next - stiffness / volume * vapour;
-                next = max(wanted, least);
-                // No vapour at all where the pressure holds: rounding must not leave a trace of it.
-                row const now = select(wanted < least, (least - wanted) * volume * compliance, row(Real(0)));
-                torn = now - vapour;
-                store(network_.vapour, first, lanes, now);
-            }
-            row const middle = (next + old) * half;
-            content += volume * (next - old) * compliance + grown - torn;
-            changed += lacuna::abs(grown);
-            work += middle * grown;
-            vapour_work += middle * torn;
-            prefactor += old * old * grown * (compliance * half);
-            store(next_, first, lanes, next);
-            store(network_.old_volume, first, lanes, volume);
-        }
-        ledger_.pressure_work += sum(work);
-        ledger_.vapour_work += sum(vapour_work);
-        ledger_.prefactor_work += sum(prefactor);
-        ledger_.mass_residual = sum(content) - in;
-        ledger_.gross_volume = gross + sum(changed);
+    pore_constants<Real> constants() const noexcept {
+        return {Real(parameters_.bulk_modulus), thickness_, Real(parameters_.minimum_pressure)};
+    }
+    void collect_active() { throats_.collect_active(network_); }
+
+    template <bool Moves, bool WithLedger>
+    void take_step(Real const* place, Real const* pair_forces, Real dt, int threads) noexcept {
+        bool const flows = throats_.active_throats() > 0;
+        if (flows)
+            for_each_chunk(throats_.chunks(false), threads, [&](int c) {
+                throats_.template pass<Moves, true, Aperture>(c, network_, place, pair_forces, parameters_.aperture);
+            });
+        for_each_chunk(pores_.chunks(), threads, [&](int c) {
+            pores_.template advance<Moves, WithLedger>(c, network_, place, constants(), dt, flows,
+                                                       pore_sums_[std::size_t(c)]);
+        });
+        if constexpr (WithLedger) keep_ledger(dt, threads);
+    }
+
+    /// Adds up what the chunks report, in their order.
+    void keep_ledger(Real dt, int threads) noexcept {
+        int const chunks = throats_.chunks(false);
+        for_each_chunk(chunks, threads, [&](int c) {
+            throats_.add_up(c, network_, pores_.pressure_before(), dt, throat_sums_[std::size_t(c)]);
+        });
+        throat_sums<Real> throats;
+        for (int c = 0; c < chunks; ++c) throats += throat_sums_[std::size_t(c)];
+        pore_sums<Real> pores;
+        for (int c = 0; c < pores_.chunks(); ++c) pores += pore_sums_[std::size_t(c)];
+        book(ledger_, pores, throats);
     }
 
     parameters parameters_;
+    Real thickness_;
     network_type network_;
     flow_ledger<Real> ledger_;
-    std::vector<Real> floor_, inflow_, next_;
-    std::vector<std::int32_t> active_;
+    pore_table<Real> pores_;
+    throat_table<Real> throats_;
+    corner_rows<Real> corners_;
+    std::vector<pore_sums<Real>> pore_sums_;
+    std::vector<throat_sums<Real>> throat_sums_;
 };
 
 /// Flow policy: explicit_flow_solver with an aperture law of one's choice.

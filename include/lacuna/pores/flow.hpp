@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <array>
+#include <algorithm>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
@@ -9,6 +9,7 @@
 #include <string>
 
 #include <lacuna/core/points.hpp>
+#include <lacuna/core/records.hpp>
 #include <lacuna/pores/pore_network.hpp>
 
 namespace lacuna {
@@ -37,25 +38,28 @@ struct flow_ledger {
 };
 
 namespace detail {
-struct any_throat_lookup {
-    throat_state<double> operator()(std::int32_t, std::int32_t) const { return {0, 0}; }
+struct any_pair_lookup {
+    std::int64_t operator()(std::int32_t, std::int32_t) const { return -1; }
 };
 } // namespace detail
 
 /// A flow solver of a model, the slot filled by explicit_flow and no_flow:
 ///   - `parameters`: an aggregate with defaults and `validate(std::string const& name)`;
-///   - `solver<Real, Dim>`: made from (parameters, network, points, radii), with the steps below, called in this
-///     order once per flow step, none of which allocates memory.
+///   - `solver<Real, Dim>`: made from (parameters, network, thickness, points, radii). step() and write_tractions() are
+///     called once per step, in this order, and allocate no memory; map_throats() whenever the pairs' places in
+///     memory change.
 template <class Policy>
 concept flow_policy = requires(typename Policy::parameters const& parameters,
                                typename Policy::template solver<double, 2>& solver,
                                typename Policy::template solver<double, 2> const& view,
-                               points_view<double, 2> points, double const* radii, double* force) {
+                               record_column<double> const& place, double const* pair_forces,
+                               record_column<double>& extra) {
     parameters.validate("flow");
-    solver.refresh_geometry(points, radii);
-    solver.refresh_apertures(detail::any_throat_lookup{});
-    solver.advance(1.0);
-    view.add_tractions(points, radii, force, std::size_t(4));
+    solver.map_throats(detail::any_pair_lookup{});
+    solver.refresh_apertures(place, pair_forces, 1);
+    solver.template step<true>(place, pair_forces, 1.0, 1);
+    solver.template step<false>(place, pair_forces, 1.0, 1);
+    view.write_tractions(extra, 1);
     { view.critical_time_step() } -> std::convertible_to<double>;
     { view.equation_19_time_step() } -> std::convertible_to<double>;
     { view.storage_energy() } -> std::convertible_to<double>;
@@ -74,12 +78,16 @@ struct no_flow {
     class solver {
     public:
         solver() = default;
-        solver(parameters const&, pore_network<Real, Dim> const&, points_view<Real, Dim>, Real const*) {}
-        void refresh_geometry(points_view<Real, Dim>, Real const*) noexcept {}
+        solver(parameters const&, pore_network<Real, Dim> const&, Real, points_view<Real, Dim>, Real const*) {}
         template <class Lookup>
-        void refresh_apertures(Lookup const&, bool = false) noexcept {}
-        void advance(Real) noexcept {}
-        void add_tractions(points_view<Real, Dim>, Real const*, Real*, std::size_t) const noexcept {}
+        void map_throats(Lookup const&) noexcept {}
+        void refresh_apertures(record_column<Real> const&, Real const*, int = 1) noexcept {}
+        template <bool WithLedger>
+        void step(record_column<Real> const&, Real const*, Real, int = 1) noexcept {}
+        /// Writes zeros.
+        void write_tractions(record_column<Real>& extra, int = 1) const noexcept {
+            std::fill(extra.data(), extra.data() + 4 * extra.size(), Real(0));
+        }
         Real critical_time_step() const noexcept { return std::numeric_limits<Real>::infinity(); }
         Real equation_19_time_step() const noexcept { return std::numeric_limits<Real>::infinity(); }
         Real storage_energy() const noexcept { return Real(0); }

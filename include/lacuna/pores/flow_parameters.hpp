@@ -26,7 +26,6 @@ struct flow_parameters {
     void validate(std::string const& name) const {
         require_positive(name + ".bulk_modulus", bulk_modulus);
         require_not_negative(name + ".conductivity", conductivity);
-        require_positive(name + ".thickness", thickness);
         if (!(minimum_volume_fraction > 0 && minimum_volume_fraction <= 1))
             refuse(name + ".minimum_volume_fraction", minimum_volume_fraction, "> 0 and <= 1");
         if (!(minimum_pressure <= 0)) refuse(name + ".minimum_pressure", minimum_pressure, "<= 0");

@@ -13,6 +13,7 @@
 #include <lacuna/core/error.hpp>
 #include <lacuna/core/points.hpp>
 #include <lacuna/pores/mesh.hpp>
+#include <lacuna/pores/padded_array.hpp>
 
 namespace lacuna {
 
@@ -72,21 +73,21 @@ struct incidence {
 template <class Real, int Dim>
 struct pore_network {
     std::array<std::vector<std::int32_t>, std::size_t(Dim) + 1> corner; ///< particles around a pore; empty when bare
-    std::vector<Real> size;       ///< of a pore's simplex at build time, m^Dim; empty when bare
-    std::vector<Real> volume;     ///< V_p, m^3
-    std::vector<Real> old_volume; ///< V_p when the pressure was last advanced, m^3
-    std::vector<Real> pressure;   ///< Pa
-    std::vector<Real> vapour;     ///< part of the volume that is void of liquid, at the minimum pressure, m^3
+    std::vector<Real> size;        ///< of a pore's simplex at build time, m^Dim; empty when bare
+    padded_array<Real> volume;     ///< V_p, m^3
+    padded_array<Real> old_volume; ///< V_p when the pressure was last advanced, m^3
+    padded_array<Real> pressure;   ///< Pa
+    padded_array<Real> vapour;     ///< part of the volume that is void of liquid, at the minimum pressure, m^3
     std::vector<pore_place> place;
 
     std::array<std::vector<std::int32_t>, 2> throat_particle;
     std::array<std::vector<std::int32_t>, 2> throat_pore;
-    std::vector<Real> length;             ///< l, m
-    std::vector<Real> aperture;           ///< a, m
-    std::vector<Real> conductance;        ///< C = k a^3 / l, m^3/(s Pa)
-    std::vector<Real> flow;               ///< q of the last step, from pore [1] (or the reservoir) to pore [0], m^3/s
-    std::vector<Real> reservoir_pressure; ///< Pa; of drained throats
-    std::vector<std::uint8_t> idle;       ///< 1 where the flow is skipped
+    std::vector<Real> length;              ///< l, m
+    padded_array<Real> aperture;           ///< a, m
+    padded_array<Real> conductance;        ///< C = k a^3 / l, m^3/(s Pa)
+    padded_array<Real> flow;               ///< q of the last step, from pore [1] (or the reservoir) to pore [0], m^3/s
+    padded_array<Real> reservoir_pressure; ///< Pa; of drained throats
+    std::vector<std::uint8_t> idle;        ///< 1 where the flow is skipped
     std::size_t interior_throats = 0;
     std::size_t drained_throats = 0;
 
@@ -144,13 +145,17 @@ void finish(pore_network<Real, Dim>& net, std::vector<throat_record<Real>> recor
             net.throat_pore[side].push_back(r.pore[side]);
         }
         net.length.push_back(r.length);
-        net.aperture.push_back(r.aperture);
-        net.reservoir_pressure.push_back(r.reservoir_pressure);
         auto& place = net.place[std::size_t(r.pore[0])];
         if (r.rank == 1) place = pore_place::drained;
         if (r.rank == 2 && place == pore_place::interior) place = pore_place::sealed;
         net.interior_throats += r.rank == 0;
         net.drained_throats += r.rank == 1;
+    }
+    net.aperture.assign(records.size(), Real(0));
+    net.reservoir_pressure.assign(records.size(), Real(0));
+    for (std::size_t t = 0; t < records.size(); ++t) {
+        net.aperture[t] = records[t].aperture;
+        net.reservoir_pressure[t] = records[t].reservoir_pressure;
     }
     net.conductance.assign(records.size(), Real(0));
     net.flow.assign(records.size(), Real(0));
@@ -227,7 +232,7 @@ pore_network<Real, Dim> make_bare_network(std::vector<Real> const& volumes,
     pore_network<Real, Dim> net;
     for (std::size_t p = 0; p < volumes.size(); ++p)
         require_positive("volume of pore " + std::to_string(p), double(volumes[p]));
-    net.volume = volumes;
+    net.volume = padded_array<Real>(volumes);
     std::vector<detail::throat_record<Real>> records;
     for (std::size_t t = 0; t < throats.size(); ++t) {
         auto const& one = throats[t];

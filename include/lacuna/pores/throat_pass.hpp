@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <lacuna/core/pack.hpp>
+#include <lacuna/core/records.hpp>
+#include <lacuna/laws/aperture.hpp>
+#include <lacuna/pores/flow_sums.hpp>
+#include <lacuna/pores/pack_access.hpp>
+#include <lacuna/pores/pore_network.hpp>
+
+/// \file
+/// The passes of the flow step over the throats, pack by pack.
+
+namespace lacuna {
+
+/// What the passes read besides the network: where the particles' and the pairs' records begin, the pores, the
+/// constants of the throats that fluid can pass. A pack is passed over when all of its throats are skipped; a
+/// skipped throat in another pack has no flow.
+template <class Real>
+class throat_table {
+public:
+    static constexpr int width = native_width<Real>;
+    /// Packs that one thread handles at a time.
+    static constexpr std::size_t chunk_packs = 128;
+
+    /// \param conductivity k of eq. 14, m/(s Pa)
+    void build(pore_network<Real, 2> const& net, Real conductivity) {
+        std::size_t const open = net.open_throats(), packs = (open + width - 1) / width, slots = packs * width;
+        interior_ = net.interior_throats;
+        for (std::size_t side = 0; side < 2; ++side) {
+            particle_[side].assign(slots, 0);
+            pore_[side].assign(slots, 0);
+        }
+        factor_.assign(slots, Real(0));
+        drained_.assign(slots, Real(0));
+        force_.assign(slots, 0);
+        paired_.assign(slots, Real(0));
+        share_.assign(slots, Real(0));
+        for (std::size_t t = 0; t < std::min(slots, net.throats()); ++t) {
+            for (std::size_t side = 0; side < 2; ++side) {
+                particle_[side][t] = 4 * std::uint32_t(std::max(net.throat_particle[side][t], 0));
+                pore_[side][t] = std::max(net.throat_pore[side][t], 0);
+            }
+            if (t >= open) continue;
+            factor_[t] = conductivity / net.length[t];
+            drained_[t] = Real(t >= interior_);
+        }
+        every_.resize(packs);
+        for (std::size_t p = 0; p < packs; ++p) every_[p] = std::int32_t(p);
+        collect_active(net);
+    }
+
+    /// Takes over which throats are skipped.
+    void collect_active(pore_network<Real, 2> const& net) {
+        active_.clear();
+        throats_ = 0;
+        for (std::size_t p = 0; p < every_.size(); ++p) {
+            std::size_t const before = throats_;
+            for (std::size_t t = p * width; t < (p + 1) * width; ++t) {
+                bool const passes = t < net.open_throats() && !net.idle[t];
+                share_[t] = Real(passes);
+                throats_ += passes;
+            }
+            if (throats_ > before) active_.push_back(std::int32_t(p));
+        }
+    }
+    /// Throats that are not skipped.
+    std::size_t active_throats() const noexcept { return throats_; }
+
+    /// \param lookup lookup(particle i, particle j): where the record of the pair's force begins, in reals; < 0 if none
+    template <class Lookup>
+    void map(pore_network<Real, 2> const& net, Lookup const& lookup) {
+        for (std::size_t t = 0; t < net.open_throats(); ++t) {
+            auto const offset = std::int64_t(lookup(net.throat_particle[0][t], net.throat_particle[1][t]));
+            paired_[t] = Real(offset >= 0);
+            force_[t] = offset >= 0 ? std::uint32_t(offset) + 3 : 0;
+        }
+    }
+
+    /// Packs of a pass: those with a throat that is not skipped, or all.
+    std::vector<std::int32_t> const& packs(bool all) const noexcept { return all ? every_ : active_; }
+    int chunks(bool all) const noexcept { return int((packs(all).size() + chunk_packs - 1) / chunk_packs); }
+
+    /// Eq. 14 for the throats of one chunk.
+    /// \tparam Moves first takes the apertures anew from the gaps and the pairs' normal forces
+    /// \tparam Flows computes the flows from the network's pressures; else apertures and conductances alone, of all
+    ///         throats
+    /// \param place records of the particles; \param pair_forces records of the pairs' forces, the normal force in
+    ///        their fourth number, at least one of them; used if Moves
+    template <bool Moves, bool Flows, class Aperture>
+    [[gnu::noinline, gnu::flatten]] void pass(int chunk, pore_network<Real, 2>& net, Real const* place,
+                                              Real const* pair_forces,
+                                              typename Aperture::parameters const& aperture_parameters) const noexcept {
+        using lanes = pack<Real, width>;
+        using rec = record<Real>;
+        auto const parameters = aperture_parameters;
+        auto const& list = packs(!Flows);
+        Real const* pressure = net.pressure.data();
+        rec difference_and_sum(Real(-1));
+        difference_and_sum.v[3] = 1;
+        lanes zero(Real(0));
+        std::size_t const first = std::size_t(chunk) * chunk_packs, end = std::min(first + chunk_packs, list.size());
+        for (std::size_t n = first; n < end; ++n) {
+            std::size_t const slot = std::size_t(list[n]) * width;
+            lanes conductance;
+            if constexpr (Moves) {
+                std::uint32_t const *i = particle_[0].data() + slot, *j = particle_[1].data() + slot;
+                auto pair = turn_records<Real, width>([&](int k) {
+                    return rec::load(place + j[k]) + rec::load(place + i[k]) * difference_and_sum;
+                });
+                lanes gap = sqrt(pair[0] * pair[0] + pair[1] * pair[1]) - pair[3];
+                lanes normal = select(lanes::load(paired_.data() + slot) > zero,
+                                      detail::gather<Real, width>(pair_forces, force_.data() + slot), zero);
+                lanes aperture = Aperture::aperture(parameters, normal, gap);
+                conductance = lanes::load(factor_.data() + slot) * (aperture * aperture * aperture);
+                aperture.store(net.aperture.data() + slot);
+                conductance.store(net.conductance.data() + slot);
+            } else {
+                conductance = lanes::load(net.conductance.data() + slot);
+            }
+            if constexpr (Flows) {
+                lanes near = detail::gather<Real, width>(pressure, pore_[0].data() + slot);
+                lanes far = detail::gather<Real, width>(pressure, pore_[1].data() + slot);
+                if (slot + width > interior_)
+                    far = select(drained(slot), lanes::load(net.reservoir_pressure.data() + slot), far);
+                lanes q = conductance * lanes::load(share_.data() + slot) * (far - near);
+                q.store(net.flow.data() + slot);
+            }
+        }
+    }
+
+    /// Energies of the flows of one chunk in the step just made, with the mean of old and new pressures.
+    /// \param before pressures before the step
+    [[gnu::noinline, gnu::flatten]] void add_up(int chunk, pore_network<Real, 2> const& net, Real const* before,
+                                                Real time_step, throat_sums<Real>& sums) const noexcept {
+        using lanes = pack<Real, width>;
+        lanes dissipation(Real(0)), work(Real(0)), inflow(Real(0)), gross(Real(0));
+        lanes dt(time_step), zero(Real(0)), half(Real(0.5));
+        Real const* after = net.pressure.data();
+        std::size_t const first = std::size_t(chunk) * chunk_packs, end = std::min(first + chunk_packs, active_.size());
+        for (std::size_t n = first; n < end; ++n) {
+            std::size_t const slot = std::size_t(active_[n]) * width;
+            std::int32_t const *one = pore_[0].data() + slot, *other = pore_[1].data() + slot;
+            lanes moved = lanes::load(net.flow.data() + slot) * dt;
+            lanes near = (detail::gather<Real, width>(before, one) + detail::gather<Real, width>(after, one)) * half;
+            lanes far = (detail::gather<Real, width>(before, other) + detail::gather<Real, width>(after, other)) * half;
+            if (slot + width > interior_) {
+                far = select(drained(slot), lanes::load(net.reservoir_pressure.data() + slot), far);
+                lanes in = select(drained(slot), moved, zero);
+                inflow += in;
+                work += in * far;
+            }
+            dissipation += moved * (far - near);
+            gross += abs(moved);
+        }
+        sums = {sum(dissipation), sum(work), sum(inflow), sum(gross)};
+    }
+
+private:
+    auto drained(std::size_t slot) const noexcept {
+        using lanes = pack<Real, width>;
+        return lanes::load(drained_.data() + slot) > lanes(Real(0));
+    }
+
+    std::size_t interior_ = 0, throats_ = 0;
+    std::array<aligned_vector<std::uint32_t>, 2> particle_;
+    std::array<aligned_vector<std::int32_t>, 2> pore_;
+    aligned_vector<std::uint32_t> force_;
+    // k / l; 1 or 0 each: behind a reservoir, with a pair, not skipped.
+    aligned_vector<Real> factor_, drained_, paired_, share_;
+    std::vector<std::int32_t> every_, active_;
+};
+
+} // namespace lacuna
