@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <lacuna/pores/flow.hpp>
+#include <lacuna/pores/flow_ledger.hpp>
 
 namespace lacuna {
 
