@@ -107,6 +107,7 @@ public:
         requires(has_fluid<Model>)
     {
         fluid_.fill(store_, parameters_.flow, parameters_.thickness, make);
+        fluid_.map_throats(interactions_);
         time_step_.reset();
     }
 
@@ -185,10 +186,8 @@ private:
     void take_step() {
         settle_time_step();
         auto const dt = real(*time_step_);
-        if (interactions_.update(store_, moved_)) {
-            update_walls();
-            skip_idle_throats();
-        }
+        bool const changed = interactions_.update(store_, moved_);
+        if (changed) update_walls();
         loads_.advance(store_, time());
         for (auto& r : reports_) r = {};
 
@@ -208,7 +207,7 @@ private:
             std::for_each(kicked_.rbegin(), kicked_.rend(), [&](kick& k) { exchange(k); });
             for_each_chunk(chunks, parameters_.threads,
                            [&](int c) { interactions_.template evaluate<WithEnergy>(store_, c, dt); });
-            if (further_forces) add_further_forces(dt);
+            if (further_forces) add_further_forces<WithEnergy>(dt, changed);
             for (auto& k : kicked_) exchange(k);
             kicked_.clear();
             for_each_chunk(chunks, parameters_.threads,
@@ -253,15 +252,22 @@ private:
         });
     }
 
-    void add_further_forces(real dt) {
-        std::fill(extra_.data(), extra_.data() + 4 * extra_.size(), real(0));
+    template <bool WithEnergy>
+    void add_further_forces(real dt, bool pairs_changed) {
+        if (pairs_changed) {
+            fluid_.map_throats(interactions_);
+            skip_idle_throats();
+        }
+        if (filled())
+            fluid_.template step<WithEnergy>(store_, interactions_, dt, parameters_.threads, extra_);
+        else
+            std::fill(extra_.data(), extra_.data() + 4 * extra_.size(), real(0));
         if (!walls_.empty()) {
             auto const beyond = walls_.evaluate(store_, dt, parameters_.damping, extra_, wall_energy_);
             if (beyond >= 0)
                 throw_unstable(store_, now(), beyond, "its centre is beyond a wall",
                                "the load or speed is too high for the stiffness of the wall");
         }
-        fluid_.step(store_, interactions_, dt, extra_);
     }
 
     /// Throats are left out for the run that was announced; ones that open within it are taken up again here.

@@ -56,10 +56,6 @@ public:
         network_.old_volume = network_.volume;
     }
 
-    /// The same with the thickness of the parameters.
-    explicit_flow_solver(parameters const& p, network_type network, points_view<Real, Dim> points, Real const* radii)
-        : explicit_flow_solver(p, std::move(network), Real(p.thickness), points, radii) {}
-
     network_type const& network() const noexcept { return network_; }
     parameters const& settings() const noexcept { return parameters_; }
     /// Kept by the steps with a ledger.

@@ -14,7 +14,6 @@ template <aperture_law Aperture>
 struct flow_parameters {
     double bulk_modulus = 2.2e9; ///< K_f of the fluid, Pa; > 0
     double conductivity = 1e-9;  ///< k of eq. 14: C = k a^3 / l in m^3/(s Pa), so m/(s Pa); >= 0
-    double thickness = 3.5e-6;   ///< of the body, out of the plane, m; > 0
     /// Least pore volume, as a share of the pore's triangle when the network was built; > 0, <= 1.
     double minimum_volume_fraction = 1e-3;
     double minimum_pressure = -std::numeric_limits<double>::infinity(); ///< the fluid tears below, Pa; <= 0

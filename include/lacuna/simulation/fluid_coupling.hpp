@@ -23,23 +23,26 @@ public:
 
     /// \param make callable (positions, radii) -> pore_network in the store's numbering
     template <class Make>
-    void fill(store_type const& store, typename Model::flow::parameters parameters, double thickness, Make const& make) {
-        parameters.thickness = thickness;
+    void fill(store_type const& store, typename Model::flow::parameters const& parameters, double thickness,
+              Make const& make) {
         auto const* radii = store.radii().data();
-        flow_.emplace(parameters, make(store.positions(), radii), store.positions(), radii);
+        flow_.emplace(parameters, make(store.positions(), radii), real(thickness), store.positions(), radii);
     }
 
-    /// Geometry, apertures, flow, pressures; then their forces, added to `out`, a record per particle.
+    /// To be called when the pairs' forces have moved in memory.
     template <class Pairs>
-    void step(store_type const& store, Pairs const& pairs, real dt, record_column<real>& out) {
+    void map_throats(Pairs const& pairs) {
+        if constexpr (has_fluid<Model>)
+            if (flow_) flow_->map_throats([&](std::int32_t i, std::int32_t j) { return pairs.find_force(i, j); });
+    }
+
+    /// Geometry, apertures, flow, pressures; then their forces, written to `out`, a record per particle.
+    template <bool WithLedger, class Pairs>
+    void step(store_type const& store, Pairs const& pairs, real dt, int threads, record_column<real>& out) {
         if constexpr (has_fluid<Model>)
             if (flow_) {
-                auto const points = store.positions();
-                auto const* radii = store.radii().data();
-                flow_->refresh_geometry(points, radii);
-                flow_->refresh_apertures([&](std::int32_t i, std::int32_t j) { return throat(store, pairs, i, j); });
-                flow_->advance(dt);
-                flow_->add_tractions(points, radii, out.data(), 4);
+                flow_->template step<WithLedger>(store.place(), pairs.force_column(), dt, threads);
+                flow_->write_tractions(out, threads);
             }
     }
 
@@ -48,21 +51,12 @@ public:
     void skip_idle_throats(store_type const& store, Pairs const& pairs, double duration) {
         if constexpr (has_fluid<Model>)
             if (flow_) {
-                flow_->refresh_apertures([&](std::int32_t i, std::int32_t j) { return throat(store, pairs, i, j); }, true);
+                flow_->refresh_apertures(store.place(), pairs.force_column());
                 flow_->skip_idle_throats(real(duration));
             }
     }
 
 private:
-    /// What the pair at a throat does, from its force in this step.
-    template <class Pairs>
-    static throat_state<real> throat(store_type const& store, Pairs const& pairs, std::int32_t i, std::int32_t j) {
-        auto const offset = pairs.find_force(i, j);
-        real const distance = norm(store.position(std::size_t(j)) - store.position(std::size_t(i)));
-        return {offset < 0 ? real(0) : pairs.force_column()[offset + 3],
-                distance - store.radius(std::size_t(i)) - store.radius(std::size_t(j))};
-    }
-
     std::optional<flow_type> flow_;
 };
 
