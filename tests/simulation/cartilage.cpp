@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "catch.hpp"
+
+#include <cmath>
+#include <vector>
+
+#include <lacuna/observe/crack_record.hpp>
+#include <lacuna/particles/cartilage_specimen.hpp>
+#include <lacuna/pores/triangulation.hpp>
+#include <lacuna/simulation.hpp>
+
+#include "../../examples/cartilage/cartilage_model.hpp"
+
+using namespace lacuna;
+
+namespace {
+
+cartilage_specimen<double> small_specimen(specimen_preset preset) {
+    cartilage_specimen_parameters p;
+    p.preset = preset;
+    p.length = 80e-6;
+    p.height = 60e-6;
+    return make_cartilage_specimen<double>(p);
+}
+
+struct outcome {
+    std::size_t broken;
+    energy_ledger energy;
+    double highest_pressure;
+};
+
+struct energy_kept {
+    static constexpr stage stages = stage::end;
+    static constexpr bool needs_energy = true;
+    template <class Simulation>
+    void on_end(Simulation const&) {}
+};
+
+/// The paper's model on a small surface zone, with water in the pores.
+outcome coupled_run(double load_MPa, long long steps) {
+    auto const s = small_specimen(specimen_preset::literal);
+    simulation<cartilage::wet_model> sim(s.discs, cartilage::model_parameters<cartilage::wet_model>(s, 0.01));
+    cartilage::set_up(sim, s, load_MPa * 1e6);
+    crack_record<break_event<2>> cracks;
+    sim.run(steps, cracks, energy_kept{});
+    double highest = 0;
+    for (std::size_t p = 0; p < sim.flow().network().pores(); ++p)
+        highest = std::max(highest, std::fabs(sim.flow().network().pressure[p]));
+    return {cracks.events().size(), sim.energy(), highest};
+}
+
+} // namespace
+
+TEST_CASE("cartilage cracks far above its capacity and not far below") {
+    auto const high = coupled_run(1000, 1500);
+    REQUIRE(high.broken > 0);
+    REQUIRE(high.energy.fracture > 0);
+    REQUIRE(high.highest_pressure > 1e6);
+    auto const low = coupled_run(0.5, 1500);
+    REQUIRE(low.broken == 0);
+    REQUIRE(low.energy.fracture == 0);
+    REQUIRE(low.highest_pressure > 0);
+}
+
+TEST_CASE("the energy of a coupled run with cracks, friction and fluid adds up") {
+    auto const run = coupled_run(60, 3000);
+    REQUIRE(run.broken > 0);
+    REQUIRE(run.energy.friction > 0);
+    REQUIRE(run.energy.fluid_storage > 0.01 * run.energy.largest());
+    REQUIRE_THAT(run.energy.residual(), WithinAbs(0, 1e-3 * run.energy.largest()));
+}
+
+TEST_CASE("a symmetric packing under a symmetric load stays symmetric") {
+    auto const s = small_specimen(specimen_preset::lattice);
+    double const middle = 0.5 * (s.left + s.right);
+    std::vector<std::size_t> partner(s.discs.size());
+    for (std::size_t i = 0; i < s.discs.size(); ++i) {
+        vec<double, 2> const mirrored{2 * middle - s.discs.position[i][0], s.discs.position[i][1]};
+        std::size_t nearest = 0;
+        for (std::size_t j = 0; j < s.discs.size(); ++j)
+            if (norm(s.discs.position[j] - mirrored) < norm(s.discs.position[nearest] - mirrored)) nearest = j;
+        REQUIRE(norm(s.discs.position[nearest] - mirrored) < 1e-9 * s.discs.radius[i]);
+        partner[i] = nearest;
+    }
+    simulation<cartilage::wet_model> sim(s.discs, cartilage::model_parameters<cartilage::wet_model>(s, 0.01));
+    cartilage::set_up(sim, s, 100e6);
+    sim.run(500);
+    double moved = 0, apart = 0;
+    for (std::size_t i = 0; i < sim.size(); ++i) {
+        auto const u = sim.position(i) - s.discs.position[i];
+        auto const v = sim.position(partner[i]) - s.discs.position[partner[i]];
+        moved = std::max(moved, norm(u));
+        apart = std::max(apart, norm(vec<double, 2>{u[0] + v[0], u[1] - v[1]}));
+    }
+    REQUIRE(moved > 1e-10);
+    REQUIRE_THAT(apart, WithinAbs(0, 1e-8 * moved));
+}
