@@ -21,7 +21,7 @@ namespace lacuna {
 
 /// What the passes read besides the network: where the particles' and the pairs' records begin, the pores, the
 /// constants of the throats that fluid can pass. A pack is passed over when all of its throats are skipped; a
-/// skipped throat in another pack has no flow.
+/// skipped throat in another pack has both its ends in one pore.
 template <class Real>
 class throat_table {
 public:
@@ -41,15 +41,12 @@ public:
         drained_.assign(slots, Real(0));
         force_.assign(slots, 0);
         paired_.assign(slots, Real(0));
-        share_.assign(slots, Real(0));
         for (std::size_t t = 0; t < std::min(slots, net.throats()); ++t) {
-            for (std::size_t side = 0; side < 2; ++side) {
+            for (std::size_t side = 0; side < 2; ++side)
                 particle_[side][t] = 4 * std::uint32_t(std::max(net.throat_particle[side][t], 0));
-                pore_[side][t] = std::max(net.throat_pore[side][t], 0);
-            }
+            pore_[0][t] = net.throat_pore[0][t];
             if (t >= open) continue;
             factor_[t] = conductivity / net.length[t];
-            drained_[t] = Real(t >= interior_);
         }
         every_.resize(packs);
         for (std::size_t p = 0; p < packs; ++p) every_[p] = std::int32_t(p);
@@ -63,8 +60,10 @@ public:
         for (std::size_t p = 0; p < every_.size(); ++p) {
             std::size_t const before = throats_;
             for (std::size_t t = p * width; t < (p + 1) * width; ++t) {
+                // Between a pore and itself nothing flows.
                 bool const passes = t < net.open_throats() && !net.idle[t];
-                share_[t] = Real(passes);
+                pore_[1][t] = passes && t < interior_ ? net.throat_pore[1][t] : pore_[0][t];
+                drained_[t] = Real(passes && t >= interior_);
                 throats_ += passes;
             }
             if (throats_ > before) active_.push_back(std::int32_t(p));
@@ -129,7 +128,7 @@ public:
                 lanes far = detail::gather<Real, width>(pressure, pore_[1].data() + slot);
                 if (slot + width > interior_)
                     far = select(drained(slot), lanes::load(net.reservoir_pressure.data() + slot), far);
-                lanes q = conductance * lanes::load(share_.data() + slot) * (far - near);
+                lanes q = conductance * (far - near);
                 q.store(net.flow.data() + slot);
             }
         }
@@ -172,8 +171,8 @@ private:
     std::array<aligned_vector<std::uint32_t>, 2> particle_;
     std::array<aligned_vector<std::int32_t>, 2> pore_;
     aligned_vector<std::uint32_t> force_;
-    // k / l; 1 or 0 each: behind a reservoir, with a pair, not skipped.
-    aligned_vector<Real> factor_, drained_, paired_, share_;
+    aligned_vector<Real> factor_;           // k / l
+    aligned_vector<Real> drained_, paired_; // 1 or 0: to a reservoir and not skipped; with a pair
     std::vector<std::int32_t> every_, active_;
 };
 
