@@ -110,19 +110,6 @@ public:
         });
     }
 
-    /// The same for the throats that are not skipped, or `all`.
-    /// \param lookup callable (particle i, particle j) -> throat_state
-    template <class Lookup>
-    void refresh_apertures(Lookup const& lookup, bool all = false) {
-        for (std::size_t t = 0; t < network_.open_throats() && !network_.bare(); ++t) {
-            if (!all && network_.idle[t]) continue;
-            auto const state = lookup(network_.throat_particle[0][t], network_.throat_particle[1][t]);
-            Real const a = Aperture::aperture(parameters_.aperture, Real(state.normal_force), Real(state.gap));
-            network_.aperture[t] = a;
-            network_.conductance[t] = Real(parameters_.conductivity) * (a * a * a / network_.length[t]);
-        }
-    }
-
     /// Leaves out, from now on, the throats through which practically nothing passes within `duration` [s]: those
     /// whose own step limit, 2 / (K_f C (1/V_1 + 1/V_2)), is more than `skip_ratio` times as long (they let at most
     /// 2 / skip_ratio of a pressure difference through), and takes up again those that have opened. Call it after
@@ -163,13 +150,6 @@ public:
     /// {F_x, F_y, 0, 0}, N. A pore at its least volume exerts none: it does not change its volume either.
     void write_tractions(record_column<Real>& extra, int threads = 1) const noexcept {
         for_each_chunk(corners_.chunks(), threads, [&](int c) { corners_.write(c, pores_.forces(), extra); });
-    }
-
-    /// Adds the forces of the pore pressures at given places to force[i * stride + 0 and 1], N.
-    void add_tractions(points_view<Real, Dim> points, Real const* radii, Real* force,
-                       std::size_t stride) const noexcept {
-        Real const least = Real(parameters_.minimum_volume_fraction) * thickness_;
-        lacuna::add_tractions(network_, thickness_, least, points, radii, force, stride);
     }
 
     /// Forces on the three corners of a pore for 1 Pa in it, N; also of a pore at its least volume.

@@ -15,13 +15,6 @@
 
 namespace lacuna {
 
-/// What the pair at a throat does: sets the throat's aperture.
-template <class Real>
-struct throat_state {
-    Real normal_force; ///< N, positive in tension; 0 where there is neither contact nor bond
-    Real gap;          ///< distance - r_i - r_j, m
-};
-
 namespace detail {
 struct any_pair_lookup {
     std::int64_t operator()(std::int32_t, std::int32_t) const { return -1; }

@@ -22,19 +22,4 @@ std::array<vec<Real, 2>, 3> pore_tractions(pore_network<Real, 2> const& net, Rea
     return {shape.traction[0] * thickness, shape.traction[1] * thickness, shape.traction[2] * thickness};
 }
 
-/// Adds the forces of the pore pressures to force[i * stride + 0 and 1], N, but of the pores at their least volume.
-/// \param least volume as a share of a pore's size, m
-template <class Real>
-void add_tractions(pore_network<Real, 2> const& net, Real thickness, Real least, points_view<Real, 2> points,
-                   Real const* radii, Real* force, std::size_t stride) noexcept {
-    for (std::size_t pore = 0; pore < net.pores() && !net.bare(); ++pore) {
-        if (!(net.volume[pore] > least * net.size[pore])) continue;
-        auto const tractions = pore_tractions(net, thickness, pore, points, radii);
-        for (std::size_t c = 0; c < 3; ++c)
-            for (int axis = 0; axis < 2; ++axis)
-                force[std::size_t(net.corner[c][pore]) * stride + std::size_t(axis)] +=
-                    tractions[c][axis] * net.pressure[pore];
-    }
-}
-
 } // namespace lacuna
