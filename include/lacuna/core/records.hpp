@@ -88,6 +88,10 @@ std::array<pack<T, W>, 4> turn_records(At const& at) noexcept {
                 P(full(__builtin_shufflevector(ab1, cd1, 0, 1, 4, 5, 8, 9, 12, 13))),
                 P(full(__builtin_shufflevector(ab0, cd0, 2, 3, 6, 7, 10, 11, 14, 15))),
                 P(full(__builtin_shufflevector(ab1, cd1, 2, 3, 6, 7, 10, 11, 14, 15)))};
+    } else if constexpr (W == 2) {
+        using both = typename P::native;
+        auto a = at(0), b = at(1);
+        return {P(both{a[0], b[0]}), P(both{a[1], b[1]}), P(both{a[2], b[2]}), P(both{a[3], b[3]})};
     } else if constexpr (W == 4) {
         using quad = typename P::native;
         quad a = at(0).v, b = at(1).v, c = at(2).v, d = at(3).v;
@@ -111,7 +115,7 @@ std::array<pack<T, W>, 4> turn_records(At const& at) noexcept {
                 P(full(__builtin_shufflevector(ab0, cd0, 2, 3, 18, 19, 6, 7, 22, 23, 10, 11, 26, 27, 14, 15, 30, 31))),
                 P(full(__builtin_shufflevector(ab1, cd1, 2, 3, 18, 19, 6, 7, 22, 23, 10, 11, 26, 27, 14, 15, 30, 31)))};
     } else {
-        std::array<P, 4> r;
+        std::array<P, 4> r{};
         for (int k = 0; k < W; ++k) {
             auto one = at(k);
             for (int l = 0; l < 4; ++l) r[std::size_t(l)].v[k] = one[l];
