@@ -56,6 +56,7 @@ lacuna::simulation_parameters<Model> work_parameters(int threads = 1) {
     // Failure is tested for in every step; the strength is far beyond what the load brings.
     p.materials[0].bond = {c.normal_stiffness, c.shear_stiffness, 1e3, 1e3};
     p.thickness = sheet_thickness;
+    p.keep_pair_forces = false; // no work reads the force of a single pair
     p.time_step = c.time_step;
     p.interactions.skin = c.skin / (0.5 * (c.smallest_radius + c.largest_radius));
     p.threads = threads;
