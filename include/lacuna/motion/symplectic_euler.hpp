@@ -133,8 +133,26 @@ private:
     }
 };
 
-/// An integrator advances the particles of a chunk; see symplectic_euler.
+namespace detail {
+struct any_pair_force {
+    record<double> operator()(int) const { return {}; }
+};
+struct any_damping {
+    struct parameters {};
+    static constexpr bool acts_on_particles = false;
+    template <class T>
+    static T particle_force(parameters const&, T const&, T const&) {
+        return T(0);
+    }
+};
+} // namespace detail
+
+/// An integrator advances the particles of a chunk; see symplectic_euler::advance().
 template <class I>
-concept integrator = std::default_initializable<I> && requires { typename motion_report<double>; };
+concept integrator = requires(particle_store<double, 2>& store, record_column<double> const* extra,
+                              motion_report<double>& report, detail::any_damping::parameters const& damping) {
+    I::template advance<false, detail::any_damping>(store, std::size_t(0), 1, 1.0, detail::any_pair_force{}, damping,
+                                                    extra, report);
+};
 
 } // namespace lacuna

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// refused: integrator
+
+#include <lacuna/simulation.hpp>
+
+struct my_model : lacuna::default_model<2> {
+#ifdef LACUNA_GOOD
+    using integrator = lacuna::symplectic_euler;
+#else
+    using integrator = lacuna::no_damping;
+#endif
+};
+
+lacuna::simulation<my_model>* use = nullptr;
