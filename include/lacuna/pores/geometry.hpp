@@ -2,6 +2,7 @@
 #pragma once
 
 #include <limits>
+#include <numbers>
 
 #include <lacuna/core/vec.hpp>
 
@@ -44,10 +45,10 @@ struct reduced_angle {
         p = p * s2 + (T(V(1.1111109635603796e-1)) * s + T(V(-1.428571426608229e-1)));
         p = p * s2 + (T(V(1.9999999999898324e-1)) * s + T(V(-3.333333333333325e-1)));
         T core = z + z * (s * p);
-        V const pi = V(3.14159265358979323846264338327950288);
-        T octant = select(middle, T(pi / 4) + core, core);
-        T quadrant = select(steep, T(pi / 2) - octant, octant);
-        return select(obtuse, T(pi) - quadrant, quadrant);
+        V half_turn = std::numbers::pi_v<V>;
+        T octant = select(middle, T(half_turn / 4) + core, core);
+        T quadrant = select(steep, T(half_turn / 2) - octant, octant);
+        return select(obtuse, T(half_turn) - quadrant, quadrant);
     }
 };
 
