@@ -99,6 +99,18 @@ std::array<pack<T, W>, 4> turn_records(At const& at) noexcept {
         quad cd0 = __builtin_shufflevector(c, d, 0, 4, 2, 6), cd1 = __builtin_shufflevector(c, d, 1, 5, 3, 7);
         return {P(quad(__builtin_shufflevector(ab0, cd0, 0, 1, 4, 5))), P(quad(__builtin_shufflevector(ab1, cd1, 0, 1, 4, 5))),
                 P(quad(__builtin_shufflevector(ab0, cd0, 2, 3, 6, 7))), P(quad(__builtin_shufflevector(ab1, cd1, 2, 3, 6, 7)))};
+    } else if constexpr (sizeof(T) == 4 && W == 8) {
+        using full = typename P::native;
+        auto two = [&](int k) { return detail::join<full>(at(k).v, at(k + 4).v); };
+        full a = two(0), b = two(1), c = two(2), d = two(3);
+        full ab0 = __builtin_shufflevector(a, b, 0, 8, 1, 9, 4, 12, 5, 13);
+        full ab1 = __builtin_shufflevector(a, b, 2, 10, 3, 11, 6, 14, 7, 15);
+        full cd0 = __builtin_shufflevector(c, d, 0, 8, 1, 9, 4, 12, 5, 13);
+        full cd1 = __builtin_shufflevector(c, d, 2, 10, 3, 11, 6, 14, 7, 15);
+        return {P(full(__builtin_shufflevector(ab0, cd0, 0, 1, 8, 9, 4, 5, 12, 13))),
+                P(full(__builtin_shufflevector(ab0, cd0, 2, 3, 10, 11, 6, 7, 14, 15))),
+                P(full(__builtin_shufflevector(ab1, cd1, 0, 1, 8, 9, 4, 5, 12, 13))),
+                P(full(__builtin_shufflevector(ab1, cd1, 2, 3, 10, 11, 6, 7, 14, 15)))};
     } else if constexpr (sizeof(T) == 4 && W == 16) {
         using half = typename pack<T, 8>::native;
         using full = typename P::native;
@@ -106,13 +118,13 @@ std::array<pack<T, W>, 4> turn_records(At const& at) noexcept {
             return detail::join<full>(detail::join<half>(at(k).v, at(k + 4).v), detail::join<half>(at(k + 8).v, at(k + 12).v));
         };
         full a = four(0), b = four(1), c = four(2), d = four(3);
-        full ab0 = __builtin_shufflevector(a, b, 0, 16, 2, 18, 4, 20, 6, 22, 8, 24, 10, 26, 12, 28, 14, 30);
-        full ab1 = __builtin_shufflevector(a, b, 1, 17, 3, 19, 5, 21, 7, 23, 9, 25, 11, 27, 13, 29, 15, 31);
-        full cd0 = __builtin_shufflevector(c, d, 0, 16, 2, 18, 4, 20, 6, 22, 8, 24, 10, 26, 12, 28, 14, 30);
-        full cd1 = __builtin_shufflevector(c, d, 1, 17, 3, 19, 5, 21, 7, 23, 9, 25, 11, 27, 13, 29, 15, 31);
+        full ab0 = __builtin_shufflevector(a, b, 0, 16, 1, 17, 4, 20, 5, 21, 8, 24, 9, 25, 12, 28, 13, 29);
+        full ab1 = __builtin_shufflevector(a, b, 2, 18, 3, 19, 6, 22, 7, 23, 10, 26, 11, 27, 14, 30, 15, 31);
+        full cd0 = __builtin_shufflevector(c, d, 0, 16, 1, 17, 4, 20, 5, 21, 8, 24, 9, 25, 12, 28, 13, 29);
+        full cd1 = __builtin_shufflevector(c, d, 2, 18, 3, 19, 6, 22, 7, 23, 10, 26, 11, 27, 14, 30, 15, 31);
         return {P(full(__builtin_shufflevector(ab0, cd0, 0, 1, 16, 17, 4, 5, 20, 21, 8, 9, 24, 25, 12, 13, 28, 29))),
-                P(full(__builtin_shufflevector(ab1, cd1, 0, 1, 16, 17, 4, 5, 20, 21, 8, 9, 24, 25, 12, 13, 28, 29))),
                 P(full(__builtin_shufflevector(ab0, cd0, 2, 3, 18, 19, 6, 7, 22, 23, 10, 11, 26, 27, 14, 15, 30, 31))),
+                P(full(__builtin_shufflevector(ab1, cd1, 0, 1, 16, 17, 4, 5, 20, 21, 8, 9, 24, 25, 12, 13, 28, 29))),
                 P(full(__builtin_shufflevector(ab1, cd1, 2, 3, 18, 19, 6, 7, 22, 23, 10, 11, 26, 27, 14, 15, 30, 31)))};
     } else {
         std::array<P, 4> r{};
@@ -148,6 +160,48 @@ void store_turned(T* to, std::array<pack<T, W>, 4> const& value) noexcept {
         put(1, __builtin_shufflevector(pq1, rs1, 0, 1, 8, 9, 2, 3, 10, 11));
         put(4, __builtin_shufflevector(pq0, rs0, 4, 5, 12, 13, 6, 7, 14, 15));
         put(5, __builtin_shufflevector(pq1, rs1, 4, 5, 12, 13, 6, 7, 14, 15));
+    } else if constexpr (W == 4) {
+        using quad = typename pack<T, W>::native;
+        quad p = value[0].v, q = value[1].v, r = value[2].v, s = value[3].v;
+        quad pq0 = __builtin_shufflevector(p, q, 0, 4, 2, 6), pq1 = __builtin_shufflevector(p, q, 1, 5, 3, 7);
+        quad rs0 = __builtin_shufflevector(r, s, 0, 4, 2, 6), rs1 = __builtin_shufflevector(r, s, 1, 5, 3, 7);
+        auto put = [&](int k, quad one) { pack<T, W>(one).store(to + 4 * k); };
+        put(0, __builtin_shufflevector(pq0, rs0, 0, 1, 4, 5));
+        put(1, __builtin_shufflevector(pq1, rs1, 0, 1, 4, 5));
+        put(2, __builtin_shufflevector(pq0, rs0, 2, 3, 6, 7));
+        put(3, __builtin_shufflevector(pq1, rs1, 2, 3, 6, 7));
+    } else if constexpr (sizeof(T) == 4 && W == 8) {
+        using full = typename pack<T, W>::native;
+        full p = value[0].v, q = value[1].v, r = value[2].v, s = value[3].v;
+        full pq0 = __builtin_shufflevector(p, q, 0, 8, 1, 9, 4, 12, 5, 13);
+        full pq1 = __builtin_shufflevector(p, q, 2, 10, 3, 11, 6, 14, 7, 15);
+        full rs0 = __builtin_shufflevector(r, s, 0, 8, 1, 9, 4, 12, 5, 13);
+        full rs1 = __builtin_shufflevector(r, s, 2, 10, 3, 11, 6, 14, 7, 15);
+        auto put = [&](int k, full two) {
+            pack<T, 4>(__builtin_shufflevector(two, two, 0, 1, 2, 3)).store(to + 4 * k);
+            pack<T, 4>(__builtin_shufflevector(two, two, 4, 5, 6, 7)).store(to + 4 * (k + 4));
+        };
+        put(0, __builtin_shufflevector(pq0, rs0, 0, 1, 8, 9, 4, 5, 12, 13));
+        put(1, __builtin_shufflevector(pq0, rs0, 2, 3, 10, 11, 6, 7, 14, 15));
+        put(2, __builtin_shufflevector(pq1, rs1, 0, 1, 8, 9, 4, 5, 12, 13));
+        put(3, __builtin_shufflevector(pq1, rs1, 2, 3, 10, 11, 6, 7, 14, 15));
+    } else if constexpr (sizeof(T) == 4 && W == 16) {
+        using full = typename pack<T, W>::native;
+        full p = value[0].v, q = value[1].v, r = value[2].v, s = value[3].v;
+        full pq0 = __builtin_shufflevector(p, q, 0, 16, 1, 17, 4, 20, 5, 21, 8, 24, 9, 25, 12, 28, 13, 29);
+        full pq1 = __builtin_shufflevector(p, q, 2, 18, 3, 19, 6, 22, 7, 23, 10, 26, 11, 27, 14, 30, 15, 31);
+        full rs0 = __builtin_shufflevector(r, s, 0, 16, 1, 17, 4, 20, 5, 21, 8, 24, 9, 25, 12, 28, 13, 29);
+        full rs1 = __builtin_shufflevector(r, s, 2, 18, 3, 19, 6, 22, 7, 23, 10, 26, 11, 27, 14, 30, 15, 31);
+        auto put = [&](int k, full four) {
+            pack<T, 4>(__builtin_shufflevector(four, four, 0, 1, 2, 3)).store(to + 4 * k);
+            pack<T, 4>(__builtin_shufflevector(four, four, 4, 5, 6, 7)).store(to + 4 * (k + 4));
+            pack<T, 4>(__builtin_shufflevector(four, four, 8, 9, 10, 11)).store(to + 4 * (k + 8));
+            pack<T, 4>(__builtin_shufflevector(four, four, 12, 13, 14, 15)).store(to + 4 * (k + 12));
+        };
+        put(0, __builtin_shufflevector(pq0, rs0, 0, 1, 16, 17, 4, 5, 20, 21, 8, 9, 24, 25, 12, 13, 28, 29));
+        put(1, __builtin_shufflevector(pq0, rs0, 2, 3, 18, 19, 6, 7, 22, 23, 10, 11, 26, 27, 14, 15, 30, 31));
+        put(2, __builtin_shufflevector(pq1, rs1, 0, 1, 16, 17, 4, 5, 20, 21, 8, 9, 24, 25, 12, 13, 28, 29));
+        put(3, __builtin_shufflevector(pq1, rs1, 2, 3, 18, 19, 6, 7, 22, 23, 10, 11, 26, 27, 14, 15, 30, 31));
     } else {
         for (int k = 0; k < W; ++k)
             for (int l = 0; l < 4; ++l) to[4 * k + l] = value[std::size_t(l)].v[k];
