@@ -40,6 +40,8 @@ using record = pack<Real, 4>;
 template <class Real>
 class record_column {
 public:
+    record_column() = default;
+    explicit record_column(std::size_t count) { resize(count); }
     void assign(std::size_t count, record<Real> const& value) {
         data_.resize(4 * count);
         for (std::size_t k = 0; k < count; ++k) set(k, value);

@@ -113,10 +113,10 @@ public:
     /// particle. The usual numbers of pairs per particle have a loop of their own, of fixed length.
     template <class Use>
     void with_forces_on(int chunk, Use const& use) const {
-        switch (rows_.row_length(chunk)) {
-        case 6: return use(force_sum<Real, Dim, 6>(rows_, forces_.of(0), chunk));
-        case 7: return use(force_sum<Real, Dim, 7>(rows_, forces_.of(0), chunk));
-        case 8: return use(force_sum<Real, Dim, 8>(rows_, forces_.of(0), chunk));
+        switch (rows_.half_row(chunk)) {
+        case 3: return use(force_sum<Real, Dim, 3>(rows_, forces_.of(0), chunk));
+        case 4: return use(force_sum<Real, Dim, 4>(rows_, forces_.of(0), chunk));
+        case 5: return use(force_sum<Real, Dim, 5>(rows_, forces_.of(0), chunk));
         default: return use(force_sum<Real, Dim>(rows_, forces_.of(0), chunk));
         }
     }

@@ -76,10 +76,12 @@ pair_frame<T, Dim> relative_motion(relative_state<T, Dim> const& state, T const&
     // No local variable of this path is const: g++ 12 keeps const ones in memory once they are packs.
     auto arm = state.arm;
     auto step = state.velocity * time_step;
-    T distance = sqrt(squared_norm(arm));
-    T inverse = T(1) / (distance * state.radii);
-    T inverse_distance = inverse * state.radii;
-    T inverse_radii = inverse * distance;
+    // The slip comes from quotients by the squared distance, which do not wait for the root.
+    T squared = squared_norm(arm);
+    T inverse_squared = T(1) / squared;
+    T inverse_radii = T(1) / state.radii;
+    T distance = sqrt(squared);
+    T inverse_distance = distance * inverse_squared;
 
     pair_frame<T, Dim> frame;
     frame.normal = arm * inverse_distance;
@@ -92,8 +94,8 @@ pair_frame<T, Dim> relative_motion(relative_state<T, Dim> const& state, T const&
     if constexpr (Dim == 2) {
         // tan(angle) = (arm x step) / (arm . (arm - step)); the quotient by the geometric series, the arc tangent
         // by its own: below 1e-12 relative for up to 1/100 rad per step.
-        T e = frame.motion.normal_rate * time_step * inverse_distance;
-        T t = cross(arm, step) * (inverse_distance * inverse_distance) * ((T(1) + e) * (T(1) + e * e));
+        T e = dot(arm, step) * inverse_squared;
+        T t = cross(arm, step) * inverse_squared * ((T(1) + e) * (T(1) + e * e));
         T t2 = t * t;
         T angle = t - t * t2 * (T(1.0 / 3) - t2 * T(0.2));
         frame.motion.slip = {distance * (angle - rolling[0])};

@@ -24,7 +24,7 @@ struct motion_report {
 /// The semi-implicit (symplectic) Euler step of eq. 3 to 8: new velocity from the old force, new position from
 /// the new velocity. Velocities stand half a step before positions; it is the leapfrog scheme, of second order.
 struct symplectic_euler {
-    /// Advances `count` particles from `first` on by one step.
+    /// Advances `count` particles of one block (particle_store::load_block), from `first` on, by one step.
     /// \param pair_force pair_force(k): sum of the pair forces on particle first + k, torques over radius
     /// \param extra further forces of this step, or nullptr; per particle a record {F_x, F_y, torque over radius, 0} in
     ///        2D, two records (force, torque over radius) in 3D
@@ -38,17 +38,19 @@ struct symplectic_euler {
         rec path(time_step); // the fourth lane holds the radius
         path.v[3] = 0;
         rec fastest(Real(0)), poison(Real(0));
+        bool const loaded = store.loaded(first);
         for (int k = 0; k < count; ++k) {
             std::size_t const p = first + std::size_t(k);
             rec place = store.place()[p];
             rec velocity = store.velocities()[p];
-            rec load = store.loads()[p];
+            rec load(Real(0));
+            if (loaded) load = store.loads()[p];
             if constexpr (Dim == 2) {
                 rec force = pair_force(k) + load;
                 if (extra) force += (*extra)[p];
                 rec drag = Damping::particle_force(damping, force, velocity);
                 if constexpr (Damping::acts_on_particles) force += drag;
-                rec next = velocity + force * store.inverse_masses()[p] * dt;
+                rec next = velocity + force * store.inverse_mass(p) * dt;
                 store.velocities().set(p, next);
                 store.place().set(p, place + next * path);
                 rec size = abs(next);
@@ -64,13 +66,13 @@ struct symplectic_euler {
                 }
                 rec drag = Damping::particle_force(damping, force, velocity);
                 if constexpr (Damping::acts_on_particles) force += drag;
-                rec next = velocity + force * store.inverse_masses()[p] * dt;
+                rec next = velocity + force * store.inverse_mass(p) * dt;
                 store.velocities().set(p, next);
                 store.place().set(p, place + next * path);
                 rec spin = store.surface_speeds()[p];
                 rec brake = Damping::particle_force(damping, torque, spin);
                 if constexpr (Damping::acts_on_particles) torque += brake;
-                rec turned = spin + torque * store.inverse_rotary()[p] * dt;
+                rec turned = spin + torque * store.inverse_rotary(p) * dt;
                 store.surface_speeds().set(p, turned);
                 store.quaternions().set(p, turn(store.quaternions()[p], turned, time_step / store.radius(p)));
                 fastest = max(abs(next), fastest);
@@ -78,7 +80,7 @@ struct symplectic_euler {
                 if constexpr (WithEnergy) {
                     add_energy(store, p, velocity, next, load, force, drag, report);
                     for (int axis = 0; axis < 3; ++axis)
-                        add_freedom(surface_inertia(store, p), store.inverse_rotary().at(p, axis) == Real(0), spin[axis],
+                        add_freedom(surface_inertia(store, p), store.mobility(p, 3) == Real(0), spin[axis],
                                     turned[axis], 0.0, torque[axis], brake[axis], report);
                 }
             }
@@ -116,7 +118,7 @@ private:
         for (int axis = 0; axis < 3; ++axis) {
             bool const turning = Dim == 2 && axis == 2;
             add_freedom(turning ? surface_inertia(store, p) : double(store.mass(p)),
-                        store.inverse_masses().at(p, axis) == Real(0), before[axis], after[axis], load[axis], force[axis],
+                        store.mobility(p, axis) == Real(0), before[axis], after[axis], load[axis], force[axis],
                         drag[axis], report);
         }
     }

@@ -63,10 +63,18 @@ public:
         if constexpr (Dim == 3) {
             surface_speed_.resize(n + ghosts);
             quaternion_.assign(n, unit_quaternion());
-            inverse_rotary_.resize(n);
         }
         load_.resize(n);
+        loaded_.assign(n / load_block + 1, 0);
+        free_.assign(n, 0);
         inverse_mass_.resize(n);
+        Real const surface = Real(1) / (masses == mass_model::disc && Dim == 2 ? Real(0.5) : Real(0.4));
+        for (unsigned bits = 0; bits < free_patterns; ++bits)
+            for (int axis = 0; axis < Dim; ++axis) {
+                moving_.at(bits, axis) = bits >> axis & 1 ? Real(1) : Real(0);
+                turning_.at(bits, axis) = bits & turns ? surface : Real(0);
+                if (Dim == 2) moving_.at(bits, 2) = turning_.at(bits, 0);
+            }
         radius_.resize(n);
         mass_.resize(n + ghosts, Real(1));
         inertia_.resize(n);
@@ -94,6 +102,7 @@ public:
             place_.at(k, 3) = Real(r);
             velocity_.at(k, 3) = Real(r);
             mass_[k] = Real(mass);
+            inverse_mass_[k] = Real(1) / mass_[k];
             fix(k, {});
         }
         // Two particles that no real one ever meets: the partners that fill the last pack of a row of pairs.
@@ -146,30 +155,26 @@ public:
         else
             set_head(surface_speed_, k, w * radius_[k]);
     }
-    void set_applied_force(std::size_t k, point const& force) noexcept { set_head(load_, k, force); }
+    void set_applied_force(std::size_t k, point const& force) noexcept {
+        set_head(load_, k, force);
+        loaded_[k / load_block] = 1;
+    }
     void set_applied_torque(std::size_t k, Real torque) noexcept
         requires(Dim == 2)
     {
         load_.at(k, 2) = torque / radius_[k];
+        loaded_[k / load_block] = 1;
     }
     /// Prescribes the motion along the given axes: there the particle keeps the velocity it has or is given.
     void fix(std::size_t k, fixed_axes const& axes) noexcept {
-        bool const held[3] = {axes.x, axes.y, axes.z};
-        for (int axis = 0; axis < Dim; ++axis)
-            inverse_mass_.at(k, axis) = held[axis] ? Real(0) : Real(1) / mass(k);
-        // Torque over radius to acceleration of the surface.
-        Real const turn = axes.rotation ? Real(0) : radius_[k] * radius_[k] / inertia_[k];
-        if constexpr (Dim == 2) {
-            inverse_mass_.at(k, 2) = turn;
-        } else {
-            for (int axis = 0; axis < 3; ++axis) inverse_rotary_.at(k, axis) = turn;
-        }
+        unsigned const held = (axes.x ? 1u : 0u) | (axes.y ? 2u : 0u) | (Dim == 3 && axes.z ? 4u : 0u) |
+                              (axes.rotation ? turns : 0u);
+        free_[k] = std::uint8_t(~held & (free_patterns - 1));
     }
     /// Inverse of mass along `axis` (0 where fixed), of the moment of inertia for axis == Dim; in 1/kg, 1/(kg m^2).
     Real mobility(std::size_t k, int axis) const noexcept {
-        if (axis < Dim) return inverse_mass_.at(k, axis);
-        bool const held = (Dim == 2 ? inverse_mass_.at(k, 2) : inverse_rotary_.at(k, 0)) == Real(0);
-        return held ? Real(0) : Real(1) / inertia_[k];
+        bool const moves = axis < Dim ? free_[k] >> axis & 1 : (free_[k] & turns) != 0;
+        return moves ? Real(1) / (axis < Dim ? mass_[k] : inertia_[k]) : Real(0);
     }
     /// \}
 
@@ -185,17 +190,24 @@ public:
     record_column<Real> const& surface_speeds() const noexcept { return surface_speed_; }
     record_column<Real>& quaternions() noexcept { return quaternion_; }
     record_column<Real> const& loads() const noexcept { return load_; }
-    record_column<Real> const& inverse_masses() const noexcept { return inverse_mass_; }
-    /// 3D: from torque over radius to acceleration of the surface, r^2 / I, 1/kg. In 2D lane 2 of inverse_masses().
-    record_column<Real> const& inverse_rotary() const noexcept { return inverse_rotary_; }
+    /// Whether any particle of the block of load_block particles that `k` is in has ever been given a load.
+    bool loaded(std::size_t k) const noexcept { return loaded_[k / load_block] != 0; }
+    /// From a force record to accelerations, 1/kg: 1/m along the free axes, in 2D r^2 / I for the third number.
+    rec inverse_mass(std::size_t k) const noexcept { return moving_[free_[k]] * rec(inverse_mass_[k]); }
+    /// 3D: from torque over radius to acceleration of the surface, r^2 / I, 1/kg.
+    rec inverse_rotary(std::size_t k) const noexcept { return turning_[free_[k]] * rec(inverse_mass_[k]); }
     /// Masses, those of the ghosts included, kg.
     Real const* masses() const noexcept { return mass_.data(); }
     /// Internal index of the two partners that fill incomplete packs of pairs.
     std::int32_t ghost(int which) const noexcept { return std::int32_t(size()) + which; }
     /// \}
 
+    static constexpr std::size_t load_block = 128;
+
 private:
     static constexpr std::size_t ghosts = 2;
+    /// Bits of free_: the axes, then the rotation.
+    static constexpr unsigned turns = 1u << Dim, free_patterns = 2u << Dim;
     static constexpr double min_normal() { return double(std::numeric_limits<Real>::min()); }
     static rec unit_quaternion() {
         rec q(Real(0));
@@ -213,8 +225,11 @@ private:
 
     std::vector<std::int32_t> id_, internal_;
     std::vector<int> material_;
-    std::vector<Real> radius_, mass_, inertia_;
-    record_column<Real> place_, velocity_, surface_speed_, quaternion_, load_, inverse_mass_, inverse_rotary_;
+    std::vector<Real> radius_, mass_, inertia_, inverse_mass_;
+    std::vector<std::uint8_t> free_, loaded_;
+    /// Which components of a force, and of a torque over radius, move a particle: a record for each pattern of free_.
+    record_column<Real> moving_ = record_column<Real>(free_patterns), turning_ = record_column<Real>(free_patterns);
+    record_column<Real> place_, velocity_, surface_speed_, quaternion_, load_;
 };
 
 } // namespace lacuna
