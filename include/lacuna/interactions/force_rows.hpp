@@ -128,7 +128,7 @@ public:
 private:
     template <class Part>
     rec add_half(int row, Part const& part) const noexcept {
-        std::int32_t const* entry = row_ + std::ptrdiff_t(row) * half_;
+        std::int32_t const* entry = row_ + std::ptrdiff_t(row) * (Half > 0 ? Half : half_);
         rec total(Real(0));
         if constexpr (Half > 0) {
             total = part(entry[0]);
