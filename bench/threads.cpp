@@ -46,9 +46,9 @@ struct outcome {
     double rate = 0;
     std::vector<std::uint64_t> bits;
 };
-outcome side_by_side(bench::sheet const& s, int runs, int threads, long long steps) {
+outcome side_by_side(bench::sheet const& s, bench::work w, int runs, int threads, long long steps) {
     std::vector<std::unique_ptr<run>> all;
-    for (int k = 0; k < runs; ++k) all.push_back(std::make_unique<run>(s, bench::work::half, threads));
+    for (int k = 0; k < runs; ++k) all.push_back(std::make_unique<run>(s, w, threads));
     auto const start = std::chrono::steady_clock::now();
     std::vector<std::thread> others;
     for (int k = 1; k < runs; ++k) others.emplace_back([&, k] { all[std::size_t(k)]->run(steps); });
@@ -67,12 +67,13 @@ struct comparison {
     bool same_bits = true;
 };
 
-comparison compare(std::string name, std::size_t particles, int runs, int threads, long long steps, int rounds) {
+comparison compare(std::string name, bench::work w, std::size_t particles, int runs, int threads, long long steps,
+                   int rounds) {
     comparison c{std::move(name), particles};
     auto const s = bench::make_sheet(particles);
     std::vector<double> one, several;
     for (int round = 0; round < rounds; ++round) {
-        auto const a = side_by_side(s, 1, 1, steps), b = side_by_side(s, runs, threads, steps);
+        auto const a = side_by_side(s, w, 1, 1, steps), b = side_by_side(s, w, runs, threads, steps);
         one.push_back(a.rate);
         several.push_back(b.rate);
         for (auto const bits : b.bits) c.same_bits = c.same_bits && bits == a.bits[0];
@@ -110,8 +111,11 @@ int main(int count, char** arguments) {
     bool const openmp = false;
 #endif
     std::vector<comparison> all;
-    if (openmp) all.push_back(compare("one run on several threads", 100000, 1, threads, 200, rounds));
-    all.push_back(compare("several runs, one thread each", 3200, threads, 1, 10000, rounds));
+    if (openmp) {
+        all.push_back(compare("one full run, several threads", bench::work::full, 100000, 1, threads, 200, rounds));
+        all.push_back(compare("one half run, several threads", bench::work::half, 100000, 1, threads, 200, rounds));
+    }
+    all.push_back(compare("several runs, one thread each", bench::work::half, 3200, threads, 1, 10000, rounds));
     if (json)
         std::printf("{\"commit\": \"%s\", \"compiler\": \"%s\", \"flags\": \"%s\", \"cpu\": \"%s\", \"threads\": %d, "
                     "\"openmp\": %s, \"cases\": [",

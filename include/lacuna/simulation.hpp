@@ -193,15 +193,25 @@ private:
 
         int const chunks = interactions_.chunks();
         bool const further_forces = filled() || !walls_.empty();
-        bool const at_once = !further_forces && parameters_.threads == 1 && kicked_.empty();
-        interactions_.set_streaming(store_, at_once && !parameters_.keep_pair_forces);
+        bool at_once = !further_forces && kicked_.empty();
+        // Whoever gives velocities again and again does not want the forces laid out anew each time.
+        if (!kicked_.empty() && step_ > 0) streams_ = false;
+        interactions_.set_mode(store_, streams_ && at_once && !parameters_.keep_pair_forces, parameters_.threads);
+        auto const& spans = interactions_.spans();
+        at_once = at_once && spans.count() == parameters_.threads;
         if (at_once) {
             // A particle's pairs belong to it and to lower-numbered ones: once the pairs of a chunk are evaluated,
             // nothing reads its particles again, and they can move while they are in the cache.
-            for (int c = 0; c < chunks; ++c) {
-                interactions_.template evaluate<WithEnergy>(store_, c, dt);
-                move<WithEnergy>(c, dt, nullptr);
-            }
+            for_each_chunk(spans.count(), parameters_.threads, [&](int s) {
+                int const end = s + 1 < spans.count() ? spans.begin(s + 1) : chunks;
+                for (int c = spans.begin(s); c < end; ++c) {
+                    interactions_.template evaluate<WithEnergy>(store_, c, dt);
+                    if (c >= spans.frontier_end(s)) move<WithEnergy>(c, dt, nullptr);
+                }
+            });
+            for_each_chunk(spans.count(), parameters_.threads, [&](int s) {
+                for (int c = spans.begin(s); c < spans.frontier_end(s); ++c) move<WithEnergy>(c, dt, nullptr);
+            });
         } else {
             // The slip of a step is that of the motion before it, which was not at velocities given since.
             std::for_each(kicked_.rbegin(), kicked_.rend(), [&](kick& k) { exchange(k); });
@@ -334,6 +344,7 @@ private:
     mutable std::optional<double> time_step_;
     real moved_ = 0, smallest_radius_ = 1;
     long long step_ = 0, planned_steps_ = 0;
+    bool streams_ = true;
 };
 
 } // namespace lacuna

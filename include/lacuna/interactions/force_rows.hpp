@@ -5,8 +5,10 @@
 #include <array>
 #include <cstdint>
 #include <initializer_list>
+#include <tuple>
 #include <vector>
 
+#include <lacuna/interactions/force_places.hpp>
 #include <lacuna/interactions/pair_loop.hpp>
 
 namespace lacuna {
@@ -23,26 +25,25 @@ public:
     static constexpr int chunk_particles = 128;
     static constexpr std::int32_t reals_per_pair = std::int32_t(4 * pair_forces<Real, Dim>::records_per_pair);
 
-    /// \param streaming the particles of a chunk move as soon as its pairs are evaluated: a force is then only kept
-    ///        until the last chunk that needs it, and its place is used again, which spares the memory the writing
-    ///        and fetching of forces that nobody reads
-    /// \param tables the pair tables whose forces lie one after the other in the force column, then one zero
-    /// \return for each table, how many packs of forces are kept: pack p lies at p modulo that number
+    /// \param places of the forces of each table
+    /// \param tables the pair tables whose places lie one after the other in the force column, then one zero
     template <class... Tables>
-    std::array<std::size_t, sizeof...(Tables)> build(std::size_t particles, bool streaming, Tables const&... tables) {
-        std::array<std::size_t, sizeof...(Tables)> const kept{(streaming ? window(particles, tables) : all(tables))...};
+    void build(std::size_t particles, std::array<force_places, sizeof...(Tables)> const& places, Tables const&... tables) {
         std::size_t const chunks = (particles + chunk_particles - 1) / chunk_particles;
         degree_.assign(2 * chunks * chunk_particles, 0);
         auto const for_each = [&](auto const& visit) {
             std::size_t first = 0, t = 0;
             (void)std::initializer_list<int>{([&] {
-                std::size_t const places = kept[t++] * tables.width;
-                for (std::size_t s = 0; s < tables.slots(); ++s)
-                    if (!tables.is_filler(s, particles))
-                        visit(tables.i(s), tables.j(s), std::int32_t(first + s % places) * reals_per_pair);
-                first += places;
+                auto const& at = places[t++];
+                for (int c = 0; c < tables.chunks(); ++c)
+                    for (std::size_t p = tables.first_pack(c); p < tables.end_pack(c); ++p)
+                        for (std::size_t k = 0, place = first + at(c, p); k < tables.width; ++k)
+                            if (std::size_t const s = p * tables.width + k; !tables.is_filler(s, particles))
+                                visit(tables.i(s), tables.j(s), std::int32_t(place * tables.width + k) * reals_per_pair);
+                first += at.count();
             }(), 0)...};
-            return std::int32_t(first) * reals_per_pair;
+            constexpr int width = std::get<0>(std::tuple(Tables::width...));
+            return std::int32_t(first * width) * reals_per_pair;
         };
         // Two counters a particle: pairs whose first it is, and pairs whose second it is.
         std::int32_t const zero = for_each([&](std::int32_t i, std::int32_t j, std::int32_t) {
@@ -67,7 +68,6 @@ public:
             put(i, 0, offset);
             put(j, 1, offset);
         });
-        return kept;
     }
 
     int chunks() const noexcept { return int(half_row_.size()); }
@@ -77,21 +77,6 @@ public:
     std::int32_t const* rows(int chunk) const noexcept { return entry_.data() + begin_[std::size_t(chunk)]; }
 
 private:
-    template <class Table>
-    static std::size_t all(Table const& table) noexcept {
-        return std::max<std::size_t>(table.packs(), 1);
-    }
-    /// Packs from one whose force is still needed to the end of the chunk that needs it, at most.
-    template <class Table>
-    static std::size_t window(std::size_t particles, Table const& table) noexcept {
-        std::size_t most = 1;
-        for (int c = 0; c < table.chunks(); ++c) most = std::max(most, table.end_pack(c) - table.first_pack(c));
-        for (std::size_t s = 0; s < table.slots(); ++s)
-            if (!table.is_filler(s, particles))
-                most = std::max(most, table.end_pack(int(table.j(s) / chunk_particles)) - s / table.width);
-        return most;
-    }
-
     std::vector<std::int32_t> degree_, half_row_, entry_;
     std::vector<std::size_t> begin_;
 };

@@ -9,7 +9,7 @@
 #include <lacuna/interactions/bond_failure.hpp>
 #include <lacuna/interactions/bond_list.hpp>
 #include <lacuna/interactions/contact_list.hpp>
-#include <lacuna/interactions/force_rows.hpp>
+#include <lacuna/interactions/force_store.hpp>
 #include <lacuna/interactions/law_stiffness.hpp>
 #include <lacuna/interactions/interaction_parameters.hpp>
 #include <lacuna/interactions/pair_loop.hpp>
@@ -83,15 +83,15 @@ public:
         return false;
     }
 
-    int chunks() const noexcept { return rows_.chunks(); }
+    int chunks() const noexcept { return forces_.chunks(); }
 
-    /// Says whether each chunk's particles move as soon as its pairs are evaluated, before the next chunk's pairs are.
-    /// Then forces are not kept for longer than that takes, and find_force() finds none.
-    void set_streaming(store_type const& store, bool streaming) {
-        if (streaming == streaming_) return;
-        streaming_ = streaming;
-        build_rows(store);
+    /// \copydoc force_store::set_mode
+    void set_mode(store_type const& store, bool streaming, int threads) {
+        if (!forces_.set_mode(streaming, threads)) return;
+        neighbors_.set_threads(threads);
+        forces_.build(store.size(), bonds_, contacts_);
     }
+    chunk_spans const& spans() const noexcept { return forces_.spans(); }
 
     /// Pair forces of the pairs that a chunk of particles owns. Chunks are independent of each other.
     template <bool WithEnergy>
@@ -100,25 +100,19 @@ public:
         energy = {};
         if constexpr (!is_absent<BondLaw>)
             evaluate_chunk<pair_kind::bond, WithEnergy, BondLaw, Damping>(
-                bonds_, chunk, bond_parameters_, damping_, store, time_step, forces_.of(0), kept_[0], energy[0],
+                bonds_, chunk, bond_parameters_, damping_, store, time_step, forces_.template begin<0>(bonds_, chunk),
+                forces_.template places<0>(bonds_, chunk), energy[0],
                 [&](std::size_t pack) { break_bonds(store, chunk, pack, time_step); });
         if constexpr (!is_absent<ContactLaw>)
             evaluate_chunk<pair_kind::contact, WithEnergy, ContactLaw, Damping>(
-                contacts_, chunk, contact_parameters_, damping_, store, time_step, contact_forces(), kept_[1],
-                energy[1],
+                contacts_, chunk, contact_parameters_, damping_, store, time_step, forces_.template begin<1>(contacts_, chunk),
+                forces_.template places<1>(contacts_, chunk), energy[1],
                 [&](std::size_t pack) { note_deep_overlap(store, chunk, pack); });
     }
-    /// Calls use(sum) with the sum of pair forces on the particles of a chunk, once all pairs that concern them are
-    /// evaluated: those of the chunks up to and including this one, because a pair belongs to its lower-numbered
-    /// particle. The usual numbers of pairs per particle have a loop of their own, of fixed length.
+    /// \copydoc force_store::with_sums
     template <class Use>
     void with_forces_on(int chunk, Use const& use) const {
-        switch (rows_.half_row(chunk)) {
-        case 3: return use(force_sum<Real, Dim, 3>(rows_, forces_.of(0), chunk));
-        case 4: return use(force_sum<Real, Dim, 4>(rows_, forces_.of(0), chunk));
-        case 5: return use(force_sum<Real, Dim, 5>(rows_, forces_.of(0), chunk));
-        default: return use(force_sum<Real, Dim>(rows_, forces_.of(0), chunk));
-        }
+        forces_.with_sums(chunk, use);
     }
 
     /// Failures of the step just evaluated, in the order of the pairs; to be completed with step and time.
@@ -170,13 +164,13 @@ public:
     /// pair, or when forces are not kept. The force is the one on the lower-numbered particle; its fourth number is
     /// the normal force.
     std::int32_t find_force(std::int32_t i, std::int32_t j) const noexcept {
-        if (streaming_) return -1;
         if (i > j) std::swap(i, j);
         std::int32_t slot = bonds_.find(i, j);
-        if (slot < 0 && (slot = contacts_.find(i, j)) >= 0) slot += std::int32_t(kept_[0]) * bond_table::width;
-        return slot < 0 ? -1 : slot * force_rows<Real, Dim>::reals_per_pair;
+        if (slot >= 0) return forces_.template find<0>(slot);
+        slot = contacts_.find(i, j);
+        return slot >= 0 ? forces_.template find<1>(slot) : -1;
     }
-    Real const* force_column() const noexcept { return forces_.of(0); }
+    Real const* force_column() const noexcept { return forces_.column(); }
 
     bond_table const& bonds() const noexcept { return bonds_; }
     contact_table const& contacts() const noexcept { return contacts_; }
@@ -220,21 +214,12 @@ private:
                     bond_records_[std::size_t(bonds_.label(s))].slot = std::int32_t(s);
         }
         broken_.clear();
-        build_rows(store);
-        auto const chunks = std::size_t(rows_.chunks());
+        forces_.build(store.size(), bonds_, contacts_);
+        auto const chunks = std::size_t(forces_.chunks());
         chunk_events_.resize(chunks);
         energy_.resize(chunks);
         deep_overlap_.assign(chunks, -1);
     }
-
-    void build_rows(store_type const& store) {
-        kept_ = rows_.build(store.size(), streaming_, bonds_, contacts_);
-        std::size_t const places = (kept_[0] + kept_[1]) * bond_table::width;
-        forces_.column.resize((places + 1) * pair_forces<Real, Dim>::records_per_pair);
-        auto* zero = forces_.of(places);
-        std::fill(zero, zero + 4 * pair_forces<Real, Dim>::records_per_pair, Real(0));
-    }
-    Real* contact_forces() noexcept { return forces_.of(kept_[0] * bond_table::width); }
 
     template <class Table, class Entry>
     static void take_entries(Table const& table, std::size_t particles, std::vector<Entry>& out) {
@@ -251,7 +236,7 @@ private:
             auto const failed = fail_bond<BondLaw, ContactLaw>(
                 store, bond, bond_parameters_.row[std::size_t(bond.parameter)],
                 contact_parameters_.row[std::size_t(row)], row, time_step,
-                forces_.of(s % (kept_[0] * bond_table::width)));
+                forces_.template of<0>(chunk, s));
             if (!failed) continue;
             energy_[std::size_t(chunk)][2].stored += failed->stored;
             chunk_events_[std::size_t(chunk)].push_back(*failed);
@@ -277,10 +262,7 @@ private:
     Real path_ = 0;
     bond_table bonds_;
     contact_table contacts_;
-    pair_forces<Real, Dim> forces_;
-    force_rows<Real, Dim> rows_;
-    std::array<std::size_t, 2> kept_{1, 1}; ///< packs of forces of bonds, of contacts
-    bool streaming_ = false;
+    force_store<Real, Dim> forces_;
     std::vector<bond_record> bond_records_;
     std::vector<bond_entry> bond_entries_;
     std::vector<contact_entry> old_contacts_, new_contacts_, broken_;

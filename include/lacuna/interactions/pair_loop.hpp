@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include <lacuna/interactions/force_places.hpp>
 #include <lacuna/interactions/kinematics.hpp>
 #include <lacuna/interactions/pair_table.hpp>
 #include <lacuna/particles/store.hpp>
@@ -133,7 +134,8 @@ enum class pair_kind { contact, bond };
 ///
 /// The law's formula is instantiated with packs here; this loop is the only one over pairs in the step.
 /// \tparam WithEnergy also sums up energies (the sums cost time, so they are only made when something asks)
-/// \param forces of the table's pairs; \param kept number of packs of them: see force_rows::build()
+/// \param forces where the chunk's places begin
+/// \param places how many there are, and which is the first pack's; only `kept` and `first` are read
 /// \param on_event called as on_event(pack) after a pack in which a bond has failed, or two particles overlap by
 ///        more than a radius; rare
 template <pair_kind Kind, bool WithEnergy, class Law, class Damping, class Real, int Dim, class OnEvent>
@@ -141,14 +143,14 @@ template <pair_kind Kind, bool WithEnergy, class Law, class Damping, class Real,
                                       parameter_table<Law, Real> const& parameters,
                                       typename Damping::parameters const& damping,
                                       particle_store<Real, Dim> const& store, Real time_step, Real* forces,
-                                      std::size_t kept, pair_energy& energy, OnEvent const& on_event) {
+                                      force_places::row const& places, pair_energy& energy, OnEvent const& on_event) {
     using lanes = typename pair_table<Law, Real, Dim>::lanes;
     constexpr int W = lanes::width;
     constexpr std::size_t stride = 4 * pair_forces<Real, Dim>::records_per_pair;
     lanes const dt(time_step);
     lanes stored(Real(0)), dissipated(Real(0)), damped(Real(0));
     auto& states = table.states();
-    std::size_t place = table.first_pack(chunk) % kept;
+    std::size_t place = places.first, kept = places.kept;
     typename Law::template parameters<lanes> law{};
     std::int32_t loaded = -2;
     for (std::size_t p = table.first_pack(chunk), end = table.end_pack(chunk); p < end; ++p) {

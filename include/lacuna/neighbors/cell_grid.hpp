@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 
+#include <lacuna/neighbors/cell_level.hpp>
 #include <lacuna/neighbors/search.hpp>
 
 namespace lacuna {
@@ -30,60 +31,24 @@ public:
         sort_into_cells(points, {}, Real(0), cutoff);
     }
     void pairs(std::vector<neighbor_pair>& out) const {
-        std::size_t found = 0;
         out.resize(out.capacity());
-        for (std::size_t i = 0; i < slot_of_.size(); ++i) {
-            std::size_t const row = found;
-            for (level const& grid : levels_)
-                found = grid.hashed ? collect<true>(grid, i, found, out) : collect<false>(grid, i, found, out);
-            detail::sort_row(out.data() + row, out.data() + found);
-        }
-        out.resize(found);
+        out.resize(pairs_of(0, slot_of_.size(), out));
     }
     void touching_pairs(points_view<Real, Dim> const& points, std::span<Real const> radii, Real margin,
                         std::vector<neighbor_pair>& out) {
         detail::require_finite_points(points);
         sort_into_cells(points, radii, detail::require_radii(radii, points.size(), margin), margin);
-        pairs(out);
+        if (threads_ == 1 || points.size() < 10000) return pairs(out);
+        detail::join_pairs(points.size(), threads_, parts_, out,
+                           [&](std::size_t first, std::size_t last, auto& part) { return pairs_of(first, last, part); });
     }
+    /// touching_pairs() uses this many threads; the pairs are the same for any number.
+    void set_threads(int threads) noexcept { threads_ = threads; }
 
 private:
-    /// Cell coordinate along each axis.
-    using cell_index = std::array<std::int64_t, Dim>;
+    using cell_index = typename detail::cell_level<Real, Dim>::cell_index;
 
-    /// The grid of the particles whose reach (radius + half the margin) is within a factor of two.
-    struct level {
-        Real reach = 0;
-        Real cells_per_length = 0;
-        vec<Real, Dim> origin{};
-        vec<Real, Dim> first{}; // limits of the cell coordinates; what lies outside goes to the outermost cell
-        vec<Real, Dim> last{};
-        std::uint64_t columns = 1; // cells along the first and second axis of a grid that is not hashed
-        std::uint64_t rows = 1;
-        std::size_t base = 0; // where its cells start in starts_
-        std::size_t cells = 0;
-        std::size_t count = 0;
-        bool hashed = false;
-
-        // Not decreasing in x, rounding included: the cells of an interval's ends enclose those of its points.
-        std::int64_t cell(Real x, int axis) const noexcept {
-            Real const t = (x - origin[axis]) * cells_per_length;
-            return std::int64_t(t > first[axis] ? (t < last[axis] ? t : last[axis]) : first[axis]);
-        }
-        /// Name of the row of cells along the first axis; in a grid that is not hashed, its number.
-        std::uint64_t row(cell_index const& c) const noexcept {
-            auto r = hashed ? std::uint64_t(c[1]) & 0xffffffffu : std::uint64_t(c[1]);
-            if constexpr (Dim == 3) r += std::uint64_t(c[2]) * (hashed ? std::uint64_t(1) << 32 : rows);
-            return r;
-        }
-        /// Cell of the table in which a row's cell 0 lies, before it is wrapped to the table.
-        std::size_t row_start(std::uint64_t row) const noexcept {
-            if (!hashed) return std::size_t(row * columns);
-            row = (row ^ (row >> 30)) * 0xbf58476d1ce4e5b9u; // mixing function of splitmix64
-            row = (row ^ (row >> 27)) * 0x94d049bb133111ebu;
-            return std::size_t(row ^ (row >> 31));
-        }
-    };
+    using level = detail::cell_level<Real, Dim>;
     static constexpr int max_levels = 7;
     static constexpr Real far_cell = Real(1 << 30);
 
@@ -219,6 +184,18 @@ private:
         }
     }
 
+    /// Writes the pairs whose first particle is in [first, last) to `out`, which grows as needed; returns their number.
+    std::size_t pairs_of(std::size_t first, std::size_t last, std::vector<neighbor_pair>& out) const {
+        std::size_t found = 0;
+        for (std::size_t i = first; i < last; ++i) {
+            std::size_t const row = found;
+            for (level const& grid : levels_)
+                found = grid.hashed ? collect<true>(grid, i, found, out) : collect<false>(grid, i, found, out);
+            detail::sort_row(out.data() + row, out.data() + found);
+        }
+        return found;
+    }
+
     /// Appends the partners of particle i in one grid to out[found...]; returns the new number of pairs.
     template <bool Hashed>
     std::size_t collect(level const& grid, std::size_t i, std::size_t found, std::vector<neighbor_pair>& out) const {
@@ -282,6 +259,8 @@ private:
     std::array<std::size_t, max_levels> level_number_{};
     std::array<Real, max_levels> bound_{}; // level l + 1 holds a reach of at most bound_[l]
     Real margin_ = 0;
+    int threads_ = 1;
+    std::vector<std::vector<neighbor_pair>> parts_;
     // By slot: the particles in the order of their cells, and by their number in that cell.
     std::array<std::vector<Real>, Dim> position_;
     std::vector<Real> radius_;

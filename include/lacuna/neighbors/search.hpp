@@ -12,6 +12,7 @@
 #include <vector>
 
 #include <lacuna/core/error.hpp>
+#include <lacuna/core/parallel.hpp>
 #include <lacuna/core/points.hpp>
 
 /// \file
@@ -118,6 +119,27 @@ inline void sort_row(neighbor_pair* first, neighbor_pair* last) {
         for (; to > first && before(moving, to[-1]); --to) *to = to[-1];
         *to = moving;
     }
+}
+
+/// Collects what `pairs_of(first, last, part)` finds for ranges of `count` particles, a thread each, in their order.
+/// \param pairs_of writes to `part`, which it lets grow, and returns how many pairs it has found
+/// \param parts buffers, kept by the caller
+template <class PairsOf>
+void join_pairs(std::size_t count, int threads, std::vector<std::vector<neighbor_pair>>& parts,
+                std::vector<neighbor_pair>& out, PairsOf const& pairs_of) {
+    auto const ranges = std::size_t(threads);
+    parts.resize(ranges);
+    std::vector<std::size_t> begin(ranges + 1, 0);
+    for_each_chunk(threads, threads, [&](int t) {
+        auto const k = std::size_t(t);
+        begin[k + 1] = pairs_of(count * k / ranges, count * (k + 1) / ranges, parts[k]);
+    });
+    for (std::size_t k = 0; k < ranges; ++k) begin[k + 1] += begin[k];
+    out.resize(begin.back());
+    for_each_chunk(threads, threads, [&](int t) {
+        auto const k = std::size_t(t);
+        std::copy_n(parts[k].begin(), begin[k + 1] - begin[k], out.begin() + std::ptrdiff_t(begin[k]));
+    });
 }
 
 } // namespace detail

@@ -35,6 +35,11 @@ public:
         detail::require_length("margin", p.margin);
     }
 
+    /// Lets a search that can use several threads do so.
+    void set_threads(int threads) {
+        if constexpr (requires { search_.set_threads(threads); }) search_.set_threads(threads);
+    }
+
     /// Builds the list anew when it may miss a pair: when it was never built, the number of particles or a
     /// radius changed, or a particle moved more than skin / 2 since the last build.
     /// \return whether it was built anew

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include <lacuna/core/vec.hpp>
+
+namespace lacuna::detail {
+
+/// The grid of the particles whose reach (radius + half the margin) is within a factor of two.
+template <class Real, int Dim>
+struct cell_level {
+    /// Cell coordinate along each axis.
+    using cell_index = std::array<std::int64_t, Dim>;
+
+    Real reach = 0;
+    Real cells_per_length = 0;
+    vec<Real, Dim> origin{};
+    vec<Real, Dim> first{}; // limits of the cell coordinates; what lies outside goes to the outermost cell
+    vec<Real, Dim> last{};
+    std::uint64_t columns = 1; // cells along the first and second axis of a grid that is not hashed
+    std::uint64_t rows = 1;
+    std::size_t base = 0; // where its cells start in starts_
+    std::size_t cells = 0;
+    std::size_t count = 0;
+    bool hashed = false;
+
+    // Not decreasing in x, rounding included: the cells of an interval's ends enclose those of its points.
+    std::int64_t cell(Real x, int axis) const noexcept {
+        Real const t = (x - origin[axis]) * cells_per_length;
+        return std::int64_t(t > first[axis] ? (t < last[axis] ? t : last[axis]) : first[axis]);
+    }
+    /// Name of the row of cells along the first axis; in a grid that is not hashed, its number.
+    std::uint64_t row(cell_index const& c) const noexcept {
+        auto r = hashed ? std::uint64_t(c[1]) & 0xffffffffu : std::uint64_t(c[1]);
+        if constexpr (Dim == 3) r += std::uint64_t(c[2]) * (hashed ? std::uint64_t(1) << 32 : rows);
+        return r;
+    }
+    /// Cell of the table in which a row's cell 0 lies, before it is wrapped to the table.
+    std::size_t row_start(std::uint64_t row) const noexcept {
+        if (!hashed) return std::size_t(row * columns);
+        row = (row ^ (row >> 30)) * 0xbf58476d1ce4e5b9u; // mixing function of splitmix64
+        row = (row ^ (row >> 27)) * 0x94d049bb133111ebu;
+        return std::size_t(row ^ (row >> 31));
+    }
+};
+
+} // namespace lacuna::detail
