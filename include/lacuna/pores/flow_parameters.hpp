@@ -12,13 +12,21 @@ namespace lacuna {
 /// Parameters of the fluid and its throats; Table 1 of the paper where it gives a value.
 template <aperture_law Aperture>
 struct flow_parameters {
+    using aperture_type = Aperture;
+
     double bulk_modulus = 2.2e9; ///< K_f of the fluid, Pa; > 0
     double conductivity = 1e-9;  ///< k of eq. 14: C = k a^3 / l in m^3/(s Pa), so m/(s Pa); >= 0
     /// Least pore volume, as a share of the pore's triangle when the network was built; > 0, <= 1.
     double minimum_volume_fraction = 1e-3;
     double minimum_pressure = -std::numeric_limits<double>::infinity(); ///< the fluid tears below, Pa; <= 0
-    double initial_pressure = 0;                                        ///< Pa; >= minimum_pressure
+    double initial_pressure = 0; ///< on top of the network's own, Pa; nowhere below minimum_pressure
     double skip_ratio = 1e6; ///< see skip_idle_throats(); > 0, infinity to skip none
+    /// Flow steps within one step, between which the change of volume is spread evenly; 0: as many as are safe.
+    int substeps = 1;
+    /// Fluid flows through throats in one of so many steps of a simulation, for the time of all of them. In the others
+    /// pressures follow the volumes alone: the fluid's stiffness acts in every step, so the step's bound stays rigorous
+    /// and no energy comes in, as it would with pressures that wait.
+    int interval = 1;
     typename Aperture::parameters aperture{};
 
     /// \throws std::invalid_argument naming field, value and rule.
@@ -31,6 +39,8 @@ struct flow_parameters {
         require_finite(name + ".initial_pressure", initial_pressure);
         if (!(initial_pressure >= minimum_pressure))
             refuse(name + ".initial_pressure", initial_pressure, ">= minimum_pressure");
+        require_in(name + ".substeps", substeps, 0, 1000000);
+        require_in(name + ".interval", interval, 1, 1000000);
         if (!(skip_ratio > 0)) refuse(name + ".skip_ratio", skip_ratio, "> 0");
         aperture.validate(name + ".aperture");
     }

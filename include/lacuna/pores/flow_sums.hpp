@@ -38,7 +38,7 @@ struct throat_sums {
     }
 };
 
-/// Books one step.
+/// Books one step, or one of several within a step: the balance adds up until open_step().
 template <class Real>
 void book(flow_ledger<Real>& ledger, pore_sums<Real> const& pores, throat_sums<Real> const& throats) noexcept {
     ledger.dissipation += throats.dissipation;
@@ -47,8 +47,14 @@ void book(flow_ledger<Real>& ledger, pore_sums<Real> const& pores, throat_sums<R
     ledger.pressure_work += pores.pressure_work;
     ledger.vapour_work += pores.vapour_work;
     ledger.prefactor_work += pores.prefactor_work;
-    ledger.mass_residual = pores.content - throats.inflow;
-    ledger.gross_volume = pores.changed + throats.gross;
+    ledger.mass_residual += pores.content - throats.inflow;
+    ledger.gross_volume += pores.changed + throats.gross;
+}
+
+/// The balance of a new step.
+template <class Real>
+void open_step(flow_ledger<Real>& ledger) noexcept {
+    ledger.mass_residual = ledger.gross_volume = Real(0);
 }
 
 } // namespace lacuna

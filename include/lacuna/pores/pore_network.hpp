@@ -12,6 +12,7 @@
 
 #include <lacuna/core/error.hpp>
 #include <lacuna/core/points.hpp>
+#include <lacuna/pores/flow_source.hpp>
 #include <lacuna/pores/mesh.hpp>
 #include <lacuna/pores/padded_array.hpp>
 
@@ -32,6 +33,9 @@ template <class Real>
 struct throat_boundary {
     boundary_kind kind = boundary_kind::sealed;
     Real pressure = Real(0); ///< of the reservoir behind a drained throat, Pa
+    /// Number of the flow_source: the reservoir behind a drained throat, or a rate that is fed into the pore at a sealed
+    /// one. Without, drained throats belong to a source of their own, "drained".
+    std::int32_t source = -1;
 };
 
 /// What a selection of boundaries is told about one throat.
@@ -87,6 +91,8 @@ struct pore_network {
     padded_array<Real> conductance;        ///< C = k a^3 / l, m^3/(s Pa)
     padded_array<Real> flow;               ///< q of the last step, from pore [1] (or the reservoir) to pore [0], m^3/s
     padded_array<Real> reservoir_pressure; ///< Pa; of drained throats
+    std::vector<std::int32_t> throat_source; ///< number in `sources` of a drained throat, else -1
+    std::vector<flow_source> sources;
     std::vector<std::uint8_t> idle;        ///< 1 where the flow is skipped
     std::size_t interior_throats = 0;
     std::size_t drained_throats = 0;
@@ -111,6 +117,8 @@ struct throat_record {
     std::array<std::int32_t, 2> particle, pore;
     Real length, aperture, reservoir_pressure;
     int rank; ///< 0 interior, 1 drained, 2 sealed
+    std::int32_t source = -1;
+    double width = 0; ///< of a throat on the boundary, m
 };
 
 inline incidence make_incidence(std::array<std::vector<std::int32_t>, 2> const& ends, std::size_t count) {
@@ -157,6 +165,7 @@ void finish(pore_network<Real, Dim>& net, std::vector<throat_record<Real>> recor
         net.aperture[t] = records[t].aperture;
         net.reservoir_pressure[t] = records[t].reservoir_pressure;
     }
+    net.throat_source = connect_sources(net.sources, records);
     net.conductance.assign(records.size(), Real(0));
     net.flow.assign(records.size(), Real(0));
     net.idle.assign(records.size(), 0);
@@ -171,8 +180,10 @@ void finish(pore_network<Real, Dim>& net, std::vector<throat_record<Real>> recor
 ///
 /// \param mesh from triangulate_body()
 /// \param points centres of all particles, m; \param radii theirs, m, > 0 at every corner of the mesh
-/// \param boundary callable boundary_throat -> throat_boundary, asked once for every throat on the boundary
-/// \throws std::invalid_argument for a corner that is no particle, a radius or a pressure out of range.
+/// \param boundary callable boundary_throat -> throat_boundary, asked once for every throat on the boundary; what its
+///        member sources() returns, if it has one, becomes the network's `sources` (see flow_boundaries())
+/// \throws std::invalid_argument for a corner that is no particle, a radius or a pressure out of range, a source that
+///         acts on no throat.
 template <class Real, class Boundary = all_sealed>
 pore_network<Real, 2> make_pore_network(pore_mesh<2> const& mesh, points_view<Real, 2> points, Real const* radii,
                                         Boundary const& boundary = {}) {
@@ -202,6 +213,7 @@ pore_network<Real, 2> make_pore_network(pore_mesh<2> const& mesh, points_view<Re
             if (other >= 0 && std::size_t(other) < t) continue;
             auto const i = corners[(c + 1) % 3], j = corners[(c + 2) % 3];
             throat_boundary<Real> end;
+            double width = 0;
             if (other < 0) {
                 auto const along = points[std::size_t(j)] - points[std::size_t(i)];
                 auto const outward = perpendicular(-along) / norm(along);
@@ -214,11 +226,14 @@ pore_network<Real, 2> make_pore_network(pore_mesh<2> const& mesh, points_view<Re
                     if (near[s] < near[side] || (near[s] == near[side] && faces[s] > faces[side])) side = s;
                 end = boundary(boundary_throat<Real, 2>{{i, j}, middle, outward, body_side(side)});
                 require_finite("reservoir pressure", double(end.pressure));
+                width = double(norm(along));
             }
             int const rank = other >= 0 ? 0 : end.kind == boundary_kind::drained ? 1 : 2;
-            records.push_back({{i, j}, {std::int32_t(t), other}, radii[i] + radii[j], Real(0), end.pressure, rank});
+            records.push_back({{i, j}, {std::int32_t(t), other}, radii[i] + radii[j], Real(0), end.pressure, rank,
+                               end.source, width});
         }
     }
+    if constexpr (requires { boundary.sources(); }) net.sources = boundary.sources();
     detail::finish(net, std::move(records), points.size());
     return net;
 }

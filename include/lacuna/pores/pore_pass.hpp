@@ -93,16 +93,71 @@ public:
     /// Pressures before the last step that kept the ledger, Pa.
     Real const* pressure_before() const noexcept { return before_.data(); }
 
+    /// Measures the pores of one chunk anew: their volumes, and the forces on their corners for 1 Pa.
+    [[gnu::noinline, gnu::flatten]] void measure(int chunk, pore_network<Real, 2>& net, Real const* place,
+                                                 Real body_thickness) noexcept {
+        using lanes = pack<Real, width>;
+        lanes thickness(body_thickness), zero(Real(0));
+        std::size_t const first = std::size_t(chunk) * chunk_packs, end = std::min(first + chunk_packs, packs_);
+        for (std::size_t p = first; p < end; ++p) {
+            std::size_t const slot = p * width;
+            auto a = load_turned<Real, width>(place, corner_[0].data() + slot);
+            auto b = load_turned<Real, width>(place, corner_[1].data() + slot);
+            auto c = load_turned<Real, width>(place, corner_[2].data() + slot);
+            auto shape = measure_pore<lanes>({{a[0], a[1]}}, {{b[0], b[1]}}, {{c[0], c[1]}}, a[3], b[3], c[3]);
+            lanes free_volume = shape.void_area * thickness, floor = lanes::load(floor_.data() + slot);
+            lanes exerts = select(free_volume > floor, thickness, zero);
+            max(free_volume, floor).store(net.volume.data() + slot);
+            store_forces(slot, shape, exerts);
+        }
+    }
+
+    /// Turns the forces for 1 Pa, as measure() left them, into those of the pressures.
+    [[gnu::noinline, gnu::flatten]] void press(int chunk, pore_network<Real, 2> const& net) noexcept {
+        using lanes = pack<Real, width>;
+        std::size_t const first = std::size_t(chunk) * chunk_packs, end = std::min(first + chunk_packs, packs_);
+        for (std::size_t p = first; p < end; ++p) {
+            lanes pressure = lanes::load(net.pressure.data() + p * width);
+            for (std::size_t c = 0; c < 3; ++c) {
+                Real* to = force_.data() + (3 * p + c) * 2 * width;
+                for (int k = 0; k < width; ++k) {
+                    to[2 * k] *= pressure[k];
+                    to[2 * k + 1] *= pressure[k];
+                }
+            }
+        }
+    }
+
+    /// Writes the forces of one pore, whose pressure has changed since the pass.
+    void press_one(std::size_t pore, pore_network<Real, 2> const& net, Real const* place,
+                   Real body_thickness) noexcept {
+        std::array<vec<Real, 2>, 3> x;
+        std::array<Real, 3> r;
+        for (std::size_t c = 0; c < 3; ++c) {
+            Real const* at = place + corner_[c][pore];
+            x[c] = {at[0], at[1]};
+            r[c] = at[3];
+        }
+        auto const shape = measure_pore<Real>(x[0], x[1], x[2], r[0], r[1], r[2]);
+        Real const push = net.volume[pore] > floor_[pore] ? net.pressure[pore] * body_thickness : Real(0);
+        for (std::size_t c = 0; c < 3; ++c) {
+            Real* to = force_.data() + ((pore / width * 3 + c) * width + pore % width) * 2;
+            to[0] = shape.traction[c][0] * push;
+            to[1] = shape.traction[c][1] * push;
+        }
+    }
+
     /// Eq. 15 for the pores of one chunk, from the flows that the network holds.
     /// \tparam Moves first measures the pores anew, and writes eq. 16's forces of the new pressures. A pore at its
     ///         least volume exerts none: its volume does not change when its corners move.
     /// \tparam WithLedger also keeps the old pressures and sums up energies
     /// \param place records of the particles, as particle_store has them; used if Moves
     /// \param flows whether any throat is open
+    /// \param share unless Moves: how much of the way from the old volumes to the network's the pores go
     template <bool Moves, bool WithLedger>
     [[gnu::noinline, gnu::flatten]] void advance(int chunk, pore_network<Real, 2>& net, Real const* place,
                                                  pore_constants<Real> const& fluid, Real time_step, bool flows,
-                                                 pore_sums<Real>& sums) noexcept {
+                                                 [[maybe_unused]] Real share, pore_sums<Real>& sums) noexcept {
         using lanes = pack<Real, width>;
         bool const tears = fluid.minimum_pressure > -std::numeric_limits<Real>::infinity();
         lanes stiffness(fluid.bulk_modulus), compliance(Real(1) / fluid.bulk_modulus), thickness(fluid.thickness);
@@ -113,7 +168,7 @@ public:
         for (std::size_t p = first; p < end; ++p) {
             std::size_t const slot = p * width;
             pore_shape<lanes> shape;
-            lanes volume, exerts;
+            lanes volume, exerts, last = lanes::load(net.old_volume.data() + slot);
             if constexpr (Moves) {
                 auto a = load_turned<Real, width>(place, corner_[0].data() + slot);
                 auto b = load_turned<Real, width>(place, corner_[1].data() + slot);
@@ -125,8 +180,9 @@ public:
                 volume.store(net.volume.data() + slot);
             } else {
                 volume = lanes::load(net.volume.data() + slot);
+                if (share < Real(1)) volume = last + (volume - last) * lanes(share);
             }
-            lanes grown = volume - lanes::load(net.old_volume.data() + slot);
+            lanes grown = volume - last;
             lanes old = lanes::load(net.pressure.data() + slot);
             lanes came = zero;
             if (flows) {
@@ -151,11 +207,7 @@ public:
             next.store(net.pressure.data() + slot);
             volume.store(net.old_volume.data() + slot);
             if constexpr (Moves) {
-                lanes push = next * exerts;
-                Real* to = force_.data() + 6 * slot;
-                detail::store_pairs(to, shape.traction[0][0] * push, shape.traction[0][1] * push);
-                detail::store_pairs(to + 2 * width, shape.traction[1][0] * push, shape.traction[1][1] * push);
-                detail::store_pairs(to + 4 * width, shape.traction[2][0] * push, shape.traction[2][1] * push);
+                store_forces(slot, shape, next * exerts);
             }
             if constexpr (WithLedger) {
                 lanes middle = (next + old) * half;
@@ -171,6 +223,14 @@ public:
     }
 
 private:
+    void store_forces(std::size_t slot, pore_shape<pack<Real, width>> const& shape,
+                      pack<Real, width> const& push) noexcept {
+        Real* to = force_.data() + 6 * slot;
+        detail::store_pairs(to, shape.traction[0][0] * push, shape.traction[0][1] * push);
+        detail::store_pairs(to + 2 * width, shape.traction[1][0] * push, shape.traction[1][1] * push);
+        detail::store_pairs(to + 4 * width, shape.traction[2][0] * push, shape.traction[2][1] * push);
+    }
+
     static constexpr Real filler_volume = Real(1e30);
     std::size_t packs_ = 0, row_ = 0;
     std::array<aligned_vector<std::uint32_t>, 3> corner_;

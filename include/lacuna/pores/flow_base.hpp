@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <lacuna/core/error.hpp>
+#include <lacuna/core/parallel.hpp>
+#include <lacuna/core/points.hpp>
+#include <lacuna/core/records.hpp>
+#include <lacuna/pores/corner_rows.hpp>
+#include <lacuna/pores/flow_sums.hpp>
+#include <lacuna/pores/flow_time_step.hpp>
+#include <lacuna/pores/pore_feed.hpp>
+#include <lacuna/pores/pore_network.hpp>
+#include <lacuna/pores/pore_pass.hpp>
+#include <lacuna/pores/throat_pass.hpp>
+#include <lacuna/pores/tractions.hpp>
+
+namespace lacuna {
+
+/// What the flow solvers share: geometry, apertures, boundaries, tractions, balances. They differ in how the flows of a
+/// step come about.
+template <class Real, int Dim, class Parameters>
+class flow_base {
+    static_assert(Dim == 2, "flow: pores exist in the plane only, so far (Dim = 2)");
+
+public:
+    using parameters = Parameters;
+    using network_type = pore_network<Real, Dim>;
+
+    network_type const& network() const noexcept { return network_; }
+    parameters const& settings() const noexcept { return parameters_; }
+    /// Kept by the steps with a ledger; what the sources have brought (network().sources) is kept by all steps.
+    flow_ledger<Real> const& ledger() const noexcept { return ledger_; }
+
+    /// \throws std::invalid_argument for a pore that is not there, a pressure not finite or below the minimum.
+    void set_pressure(std::size_t pore, Real pressure) {
+        if (pore >= network_.pores()) refuse("pore", double(pore), "a pore of the network");
+        check_pressure("pressure of pore " + std::to_string(pore), double(pressure));
+        network_.pressure[pore] = pressure;
+    }
+    /// Changes what a source prescribes from the next step on: Pa, or m^3/s.
+    /// \throws std::invalid_argument for a source that is not there, a value not finite, a pressure below the minimum.
+    void set_source(std::size_t number, double value) {
+        if (number >= network_.sources.size()) refuse("flow source", double(number), "a source of the network");
+        auto& source = network_.sources[number];
+        std::string const name = "flow source " + source.name;
+        if (source.kind == flow_source_kind::pressure)
+            check_pressure(name, value);
+        else
+            require_finite(name, value);
+        source.value = value;
+        if (source.kind == flow_source_kind::rate) return;
+        for (std::size_t t = network_.interior_throats; t < network_.open_throats(); ++t)
+            if (network_.throat_source[t] == std::int32_t(number)) network_.reservoir_pressure[t] = Real(value);
+    }
+
+    /// New pore volumes. The volume change that the next step sees is that since the last one. step() does it itself.
+    void refresh_geometry(points_view<Real, Dim> points, Real const* radii) {
+        if (network_.bare()) return;
+        record_column<Real> place;
+        place.resize(points.size());
+        for (std::size_t k = 0; k < points.size(); ++k) {
+            place.at(k, 0) = points(k, 0);
+            place.at(k, 1) = points(k, 1);
+            place.at(k, 3) = radii[k];
+        }
+        for (int c = 0; c < pores_.chunks(); ++c) pores_.measure(c, network_, place.data(), thickness_);
+    }
+
+    /// Tells each throat where the force of its pair is; to be called whenever the pairs' places in memory change.
+    /// \param lookup callable (particle i, particle j) -> where the record of the pair's force begins, in reals from
+    ///        the beginning of all; negative where there is no such pair: no force
+    template <class Lookup>
+    void map_throats(Lookup const& lookup) {
+        if (!network_.bare()) throats_.map(network_, lookup);
+    }
+
+    /// New apertures of all throats, of those that are skipped as well.
+    /// \param place records of the particles, as particle_store has them; here and below
+    /// \param pair_forces records of the pairs' forces, at least one; the fourth number is the normal force, N,
+    ///        positive in tension; here and below
+    void refresh_apertures(record_column<Real> const& place, Real const* pair_forces, int threads = 1) noexcept {
+        if (network_.bare()) return;
+        for_each_chunk(throats_.chunks(true), threads, [&](int c) {
+            throats_.template pass<true, false, aperture_type>(c, network_, place.data(), pair_forces,
+                                                               parameters_.aperture);
+        });
+    }
+
+    /// Leaves out, from now on, the throats through which practically nothing passes within `duration` [s]: those
+    /// whose own step limit, 2 / (K_f C (1/V_1 + 1/V_2)), is more than `skip_ratio` times as long (they let at most
+    /// 2 / skip_ratio of a pressure difference through), and takes up again those that have opened. Call it after
+    /// refresh_apertures(), at the start and whenever throats may have opened.
+    /// \return how many throats are skipped
+    /// \throws std::invalid_argument for a duration that is not positive.
+    std::size_t skip_idle_throats(Real duration) {
+        require_positive("duration", double(duration));
+        for (std::size_t t = 0; t < network_.open_throats(); ++t) {
+            auto const other = network_.throat_pore[1][t];
+            Real rate = Real(1) / network_.volume[std::size_t(network_.throat_pore[0][t])];
+            if (other >= 0) rate += Real(1) / network_.volume[std::size_t(other)];
+            double const limit = 2 / (parameters_.bulk_modulus * double(network_.conductance[t]) * double(rate));
+            network_.idle[t] = limit <= parameters_.skip_ratio * double(duration) ? 0 : 1;
+            if (network_.idle[t]) network_.flow[t] = Real(0);
+        }
+        throats_.collect_active(network_);
+        return network_.open_throats() - throats_.active_throats();
+    }
+
+    /// Writes the forces of the pore pressures, as the last step() left them, for every particle: the record
+    /// {F_x, F_y, 0, 0}, N. A pore at its least volume exerts none: it does not change its volume either.
+    void write_tractions(record_column<Real>& extra, int threads = 1) const noexcept {
+        for_each_chunk(corners_.chunks(), threads, [&](int c) { corners_.write(c, pores_.forces(), extra); });
+    }
+
+    /// Forces on the three corners of a pore for 1 Pa in it, N; also of a pore at its least volume.
+    std::array<vec<Real, Dim>, 3> pore_tractions(std::size_t pore, points_view<Real, Dim> points,
+                                                 Real const* radii) const noexcept {
+        return lacuna::pore_tractions(network_, thickness_, pore, points, radii);
+    }
+
+    /// Energy stored in the compressed fluid, sum of V p^2 / 2 K_f, J.
+    Real storage_energy() const noexcept {
+        using lanes = pack<Real, native_width<Real>>;
+        lanes total(Real(0));
+        for (std::size_t p = 0; p < network_.pores(); p += lanes::width) {
+            lanes pressure = lanes::load(network_.pressure.data() + p);
+            total += lanes::load(network_.volume.data() + p) * pressure * pressure;
+        }
+        return sum(total) / Real(2 * parameters_.bulk_modulus);
+    }
+
+    /// Eq. 19 as printed, s: not safe where apertures differ. Skipped throats count.
+    Real equation_19_time_step() const {
+        return lacuna::equation_19_time_step(network_, parameters_.bulk_modulus, parameters_.conductivity);
+    }
+
+protected:
+    using aperture_type = typename parameters::aperture_type;
+
+    /// Rigid pores of a bare network, whose volumes and apertures stay as given.
+    flow_base(parameters const& p, network_type network) : flow_base(p, std::move(network), Real(1)) {}
+    /// Pores of a body, at its present geometry.
+    flow_base(parameters const& p, network_type network, Real thickness, points_view<Real, Dim> points,
+              Real const* radii)
+        : flow_base(p, std::move(network), thickness) {
+        refresh_geometry(points, radii);
+        network_.old_volume = network_.volume;
+    }
+
+    /// Goes back to an earlier network and ledger of the same body.
+    void restore_state(network_type network, flow_ledger<Real> const& ledger) {
+        network_ = std::move(network);
+        ledger_ = ledger;
+        pores_.set_fillers(network_);
+        throats_.collect_active(network_);
+        feed_.build(network_);
+    }
+
+    bool flows() const noexcept { return throats_.active_throats() > 0; }
+    Real substep_limit() const noexcept { return flow_critical_time_step(network_, parameters_.bulk_modulus); }
+
+    /// New volumes and forces for 1 Pa.
+    void measure(Real const* place, int threads) noexcept {
+        for_each_chunk(pores_.chunks(), threads, [&](int c) { pores_.measure(c, network_, place, thickness_); });
+    }
+    /// Forces of the pressures, after measure().
+    void press(int threads) noexcept {
+        for_each_chunk(pores_.chunks(), threads, [&](int c) { pores_.press(c, network_); });
+    }
+
+    /// Eq. 14 from the present pressures, for all throats that are not skipped; with Moves, new apertures first.
+    template <bool Moves>
+    void compute_flows(Real const* place, Real const* pair_forces, int threads) noexcept {
+        for_each_chunk(throats_.chunks(false), threads, [&](int c) {
+            throats_.template pass<Moves, true, aperture_type>(c, network_, place, pair_forces, parameters_.aperture);
+        });
+    }
+
+    /// Eq. 15 for all pores over dt [s], from the flows that the network holds, and what the sources bring.
+    /// \tparam Fused measures the pores and writes their forces in the same pass
+    /// \param flowing whether anything flows through throats
+    /// \param share see pore_table::advance()
+    template <bool Fused, bool WithLedger>
+    void advance_pressures(Real const* place, Real dt, Real share, bool flowing, int threads) noexcept {
+        pore_constants<Real> const fluid{Real(parameters_.bulk_modulus), thickness_,
+                                         Real(parameters_.minimum_pressure)};
+        feed_.remember(network_);
+        for_each_chunk(pores_.chunks(), threads, [&](int c) {
+            pores_.template advance<Fused, WithLedger>(c, network_, place, fluid, dt, flowing, share,
+                                                       pore_sums_[std::size_t(c)]);
+        });
+        pore_sums<Real> pores;
+        throat_sums<Real> throats;
+        feed_.apply(network_, fluid, dt, flowing, pores, throats);
+        if constexpr (Fused)
+            for (auto const& f : feed_.pores()) pores_.press_one(f.pore, network_, place, thickness_);
+        if constexpr (WithLedger) {
+            int const chunks = throats_.chunks(false);
+            for_each_chunk(chunks, threads, [&](int c) {
+                throats_.add_up(c, network_, pores_.pressure_before(), flowing ? dt : Real(0),
+                                throat_sums_[std::size_t(c)]);
+            });
+            for (int c = 0; c < chunks; ++c) throats += throat_sums_[std::size_t(c)];
+            for (int c = 0; c < pores_.chunks(); ++c) pores += pore_sums_[std::size_t(c)];
+            book(ledger_, pores, throats);
+        }
+    }
+
+    /// Several flow steps within one of dt [s], of pores measured before.
+    /// \param flow callable (first or not, dt, share of the volume change) that leaves the flows in the network
+    template <bool WithLedger, class Flow>
+    void take_substeps(int count, Real dt, int threads, Flow const& flow) {
+        bool const flowing = flows() && dt > Real(0);
+        Real const part = dt / Real(count);
+        for (int s = 0; s < count; ++s) {
+            Real const share = Real(1) / Real(count - s);
+            if (flowing) flow(s == 0, part, share);
+            advance_pressures<false, WithLedger>(nullptr, part, share, flowing, threads);
+        }
+    }
+
+    template <bool WithLedger>
+    void begin_step() noexcept {
+        if constexpr (WithLedger) open_step(ledger_);
+    }
+    void end_step(Real dt) noexcept {
+        if (dt > Real(0)) feed_.close(network_, dt);
+    }
+
+    parameters parameters_;
+    Real thickness_;
+    network_type network_;
+    flow_ledger<Real> ledger_;
+    pore_feed<Real> feed_;
+
+private:
+    flow_base(parameters const& p, network_type network, Real thickness)
+        : parameters_(p), thickness_(thickness), network_(std::move(network)) {
+        parameters_.validate("flow");
+        require_positive("thickness", double(thickness));
+        for (std::size_t k = 0; k < network_.pores(); ++k) {
+            network_.pressure[k] += Real(p.initial_pressure);
+            check_pressure("initial pressure of pore " + std::to_string(k), double(network_.pressure[k]));
+        }
+        for (auto const& source : network_.sources)
+            if (source.kind == flow_source_kind::pressure) check_pressure("flow source " + source.name, source.value);
+        if (!network_.bare()) {
+            Real const aperture = aperture_type::aperture(p.aperture, Real(0), Real(0));
+            std::fill(network_.aperture.begin(), network_.aperture.end(), aperture);
+        }
+        for (std::size_t t = 0; t < network_.open_throats(); ++t) {
+            Real const a = network_.aperture[t];
+            network_.conductance[t] = Real(p.conductivity) * (a * a * a / network_.length[t]);
+        }
+        pores_.build(network_, Real(p.minimum_volume_fraction) * thickness);
+        throats_.build(network_, Real(p.conductivity));
+        pore_sums_.resize(std::size_t(std::max(pores_.chunks(), 1)));
+        throat_sums_.resize(std::size_t(throats_.chunks(true)));
+        std::size_t const particles = network_.particle_throats.first.size() - 1;
+        corners_.build(
+            particles, [&](auto const& visit) { pores_.for_each_corner(network_, visit); }, pores_.zero_offset());
+        feed_.build(network_);
+    }
+
+    void check_pressure(std::string const& what, double pressure) const {
+        require_finite(what, pressure);
+        if (!(pressure >= parameters_.minimum_pressure)) refuse(what, pressure, ">= minimum_pressure");
+    }
+
+    pore_table<Real> pores_;
+    throat_table<Real> throats_;
+    corner_rows<Real> corners_;
+    std::vector<pore_sums<Real>> pore_sums_;
+    std::vector<throat_sums<Real>> throat_sums_;
+};
+
+} // namespace lacuna
