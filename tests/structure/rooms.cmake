@@ -42,6 +42,9 @@ set(EXCEPTIONS
   # core/ alone is a chain of five: fields of records of packs of scalars.
   "interactions/interactions.hpp depth"
   "simulation.hpp depth"
+  # A solver is its base, which is the passes over a network, which is a mesh of the plane's geometry.
+  "pores/explicit_flow.hpp depth"
+  "pores/implicit_flow.hpp depth"
   # All that a user calls, and the step, on one page.
   "simulation.hpp lines"
   "simulation/parameters.hpp depth"

@@ -45,7 +45,8 @@ public:
                          Real const* radii)
         : base(p, std::move(network), thickness, points, radii) {}
 
-    /// Goes back to an earlier network() and ledger() of the same body.
+    /// Goes on from another network and ledger: earlier ones of the same body, or those of a new mesh (then
+    /// map_throats() anew). Volumes, apertures and conductances are taken as they are.
     void restore(network_type network, flow_ledger<Real> const& ledger) {
         this->restore_state(std::move(network), ledger);
     }

@@ -156,13 +156,21 @@ protected:
         network_.old_volume = network_.volume;
     }
 
-    /// Goes back to an earlier network and ledger of the same body.
-    void restore_state(network_type network, flow_ledger<Real> const& ledger) {
+    /// Takes over a network and a ledger.
+    /// \return whether throats join the same pores as before
+    bool restore_state(network_type network, flow_ledger<Real> const& ledger) {
+        bool const same = network.corner == network_.corner && network.throat_pore == network_.throat_pore &&
+                          network.pores() == network_.pores() && network.open_throats() == network_.open_throats();
         network_ = std::move(network);
         ledger_ = ledger;
-        pores_.set_fillers(network_);
-        throats_.collect_active(network_);
-        feed_.build(network_);
+        if (same) {
+            pores_.set_fillers(network_);
+            throats_.collect_active(network_);
+            feed_.build(network_);
+        } else {
+            build_tables();
+        }
+        return same;
     }
 
     bool flows() const noexcept { return throats_.active_throats() > 0; }
@@ -261,8 +269,12 @@ private:
             Real const a = network_.aperture[t];
             network_.conductance[t] = Real(p.conductivity) * (a * a * a / network_.length[t]);
         }
-        pores_.build(network_, Real(p.minimum_volume_fraction) * thickness);
-        throats_.build(network_, Real(p.conductivity));
+        build_tables();
+    }
+
+    void build_tables() {
+        pores_.build(network_, Real(parameters_.minimum_volume_fraction) * thickness_);
+        throats_.build(network_, Real(parameters_.conductivity));
         pore_sums_.resize(std::size_t(std::max(pores_.chunks(), 1)));
         throat_sums_.resize(std::size_t(throats_.chunks(true)));
         std::size_t const particles = network_.particle_throats.first.size() - 1;

@@ -5,6 +5,14 @@
 
 namespace lacuna {
 
+/// What the pass over the pores needs to know of the fluid and the body.
+template <class Real>
+struct pore_constants {
+    Real bulk_modulus;     ///< K_f, Pa
+    Real thickness;        ///< m
+    Real minimum_pressure; ///< Pa; -infinity for a fluid that never tears
+};
+
 /// What one chunk of pores adds to the ledger and to the balance of the step.
 template <class Real>
 struct pore_sums {

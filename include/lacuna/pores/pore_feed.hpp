@@ -10,7 +10,6 @@
 #include <lacuna/pores/flow_ledger.hpp>
 #include <lacuna/pores/flow_sums.hpp>
 #include <lacuna/pores/pore_network.hpp>
-#include <lacuna/pores/pore_pass.hpp>
 
 namespace lacuna {
 

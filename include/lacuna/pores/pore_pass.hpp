@@ -20,14 +20,6 @@
 
 namespace lacuna {
 
-/// What the pass over the pores needs to know of the fluid and the body.
-template <class Real>
-struct pore_constants {
-    Real bulk_modulus;     ///< K_f, Pa
-    Real thickness;        ///< m
-    Real minimum_pressure; ///< Pa; -infinity for a fluid that never tears
-};
-
 /// What the pass reads and writes besides the network: where the corners' records begin, least volumes, the throats
 /// of each pore, and the forces on the corners. Whole packs; the last pore fills up the last one, with a least volume
 /// that no pore has: its volume and pressure never change, so it adds nothing to any sum.

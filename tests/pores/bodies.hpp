@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include <lacuna/core/records.hpp>
+#include <lacuna/pores/pore_network.hpp>
+#include <lacuna/pores/triangulation.hpp>
+
+/// \file
+/// Bodies of discs whose pores the tests of flow solvers fill.
+
+namespace bodies {
+
+using point = lacuna::vec<double, 2>;
+
+inline double uniform(std::mt19937_64& engine) { return double(engine() >> 11) * 0x1p-53; }
+
+/// Discs of thickness 1, and what makes a flow solver of their pores.
+struct body {
+    std::vector<point> x;
+    std::vector<double> r;
+
+    lacuna::points_view<double, 2> points() const { return lacuna::view_points(x); }
+    template <class Boundary = lacuna::all_sealed>
+    lacuna::pore_network<double, 2> network(Boundary const& boundary = {}) const {
+        return lacuna::make_pore_network(lacuna::triangulate_body(points(), r.data()), points(), r.data(), boundary);
+    }
+    /// K_f = 1000, k = 1, nothing skipped, apertures of 0.1 at zero force.
+    template <class Solver>
+    static typename Solver::parameters settings() {
+        typename Solver::parameters p;
+        p.bulk_modulus = 1000;
+        p.conductivity = 1;
+        p.skip_ratio = std::numeric_limits<double>::infinity();
+        if constexpr (requires { p.aperture.half_force; }) p.aperture = {0.1, 1, 1};
+        return p;
+    }
+    template <class Solver, class Boundary = lacuna::all_sealed>
+    Solver flow(typename Solver::parameters const& p, Boundary const& boundary = {}) const {
+        return {p, network(boundary), 1.0, points(), r.data()};
+    }
+    /// The records of a particle store: {x, y, arc, radius}.
+    template <class Real = double>
+    lacuna::record_column<Real> place() const {
+        lacuna::record_column<Real> column;
+        column.resize(x.size() + 2);
+        for (std::size_t i = 0; i < x.size() + 2; ++i) {
+            bool const ghost = i >= x.size();
+            column.at(i, 0) = ghost ? Real(i) : Real(x[i][0]);
+            column.at(i, 1) = ghost ? Real(0) : Real(x[i][1]);
+            column.at(i, 3) = ghost ? Real(0.25) : Real(r[i]);
+        }
+        return column;
+    }
+    /// Forces that the last step left, a point per particle.
+    template <class Solver>
+    std::vector<point> tractions(Solver const& flow, int threads = 1) const {
+        lacuna::record_column<double> extra;
+        extra.resize(x.size());
+        flow.write_tractions(extra, threads);
+        std::vector<point> force;
+        for (std::size_t i = 0; i < x.size(); ++i) force.push_back({extra.at(i, 0), extra.at(i, 1)});
+        return force;
+    }
+    static constexpr double no_force[4] = {0, 0, 0, 0};
+};
+
+/// Discs of different radii on a disturbed lattice, some apart, some overlapping.
+inline body scattered(std::uint64_t seed, int rows, int columns, double least, double most) {
+    std::mt19937_64 engine(seed);
+    body b;
+    for (int i = 0; i < rows; ++i)
+        for (int j = 0; j < columns; ++j) {
+            b.x.push_back({2 * j + (i % 2) + 0.4 * (uniform(engine) - 0.5),
+                           std::sqrt(3.0) * i + 0.4 * (uniform(engine) - 0.5)});
+            b.r.push_back(least + (most - least) * uniform(engine));
+        }
+    return b;
+}
+
+/// Discs of radius 1 that touch, in a triangular lattice; every second row has one less.
+inline body triangular(int rows, int columns) {
+    body b;
+    for (int i = 0; i < rows; ++i)
+        for (int j = 0; j < columns - i % 2; ++j) {
+            b.x.push_back({2.0 * j + i % 2, std::sqrt(3.0) * i});
+            b.r.push_back(1);
+        }
+    return b;
+}
+
+/// A motion that turns pores about, to be added to a body at rest.
+inline void stir(body& b, body const& rest, double phase, double amplitude = 0.01) {
+    for (std::size_t i = 0; i < b.x.size(); ++i)
+        b.x[i] = rest.x[i] + point{std::sin(5 * phase + 0.3 * double(i)), std::cos(4 * phase + 0.7 * double(i))} * amplitude;
+}
+
+} // namespace bodies
