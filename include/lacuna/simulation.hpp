@@ -176,6 +176,12 @@ public:
     {
         return *fluid_.get();
     }
+    /// The same, for its set_pressure() and set_source(); steps are the simulation's.
+    auto& flow()
+        requires(has_fluid<Model>)
+    {
+        return *fluid_.get();
+    }
     bool filled() const noexcept { return fluid_.get() != nullptr; }
 
 private:
@@ -269,7 +275,7 @@ private:
             skip_idle_throats();
         }
         if (filled())
-            fluid_.template step<WithEnergy>(store_, interactions_, dt, parameters_.threads, extra_);
+            fluid_.template step<WithEnergy>(store_, interactions_, dt, step_, parameters_.threads, extra_);
         else
             std::fill(extra_.data(), extra_.data() + 4 * extra_.size(), real(0));
         if (!walls_.empty()) {

@@ -24,13 +24,15 @@ public:
         Real pressure, volume, vapour; ///< before the pass over the pores: Pa, m^3, m^3
     };
 
-    /// \throws std::invalid_argument for a pore held twice.
+    /// \throws std::invalid_argument for a name given twice, a pore held twice.
     template <int Dim>
     void build(pore_network<Real, Dim> const& net) {
         pores_.clear();
         mark_.clear();
         for (std::size_t s = 0; s < net.sources.size(); ++s) {
             auto const& source = net.sources[s];
+            for (std::size_t other = 0; other < s; ++other)
+                if (net.sources[other].name == source.name) refuse("flow source", source.name, "a name given once");
             mark_.push_back(source.volume);
             for (std::size_t k = 0; k < source.pores.size(); ++k)
                 pores_.push_back({std::size_t(source.pores[k]), s,

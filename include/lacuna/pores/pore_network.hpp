@@ -61,6 +61,7 @@ struct bare_throat {
     std::int32_t first, second;
     Real length, aperture;          ///< m, both > 0
     Real reservoir_pressure = Real(0); ///< Pa
+    std::int32_t source = -1;          ///< as in throat_boundary
 };
 
 /// Rows of a sparse table: entries first[i] to first[i + 1] belong to i. An entry 2 * throat + side says that i is
@@ -239,11 +240,12 @@ pore_network<Real, 2> make_pore_network(pore_mesh<2> const& mesh, points_view<Re
 }
 
 /// A network without particles: rigid pores of the given volumes, throats of constant aperture.
-/// \param volumes m^3, > 0
+/// \param volumes m^3, > 0; \param sources that throats to reservoirs name
 /// \throws std::invalid_argument for a value out of range, or a throat's end that is no pore.
 template <class Real, int Dim = 2>
 pore_network<Real, Dim> make_bare_network(std::vector<Real> const& volumes,
-                                          std::vector<bare_throat<Real>> const& throats) {
+                                          std::vector<bare_throat<Real>> const& throats,
+                                          std::vector<flow_source> sources = {}) {
     pore_network<Real, Dim> net;
     for (std::size_t p = 0; p < volumes.size(); ++p)
         require_positive("volume of pore " + std::to_string(p), double(volumes[p]));
@@ -260,8 +262,9 @@ pore_network<Real, Dim> make_bare_network(std::vector<Real> const& volumes,
         require_positive(name + ".aperture", double(one.aperture));
         require_finite(name + ".reservoir_pressure", double(one.reservoir_pressure));
         records.push_back({{-1, -1}, {one.first, one.second}, one.length, one.aperture, one.reservoir_pressure,
-                           one.second < 0 ? 1 : 0});
+                           one.second < 0 ? 1 : 0, one.source, 1.0});
     }
+    net.sources = std::move(sources);
     detail::finish(net, std::move(records), 0);
     return net;
 }

@@ -20,6 +20,7 @@ public:
 
     /// The flow solver, nullptr without fluid.
     flow_type const* get() const noexcept { return flow_ ? &*flow_ : nullptr; }
+    flow_type* get() noexcept { return flow_ ? &*flow_ : nullptr; }
 
     /// \param make callable (positions, radii) -> pore_network in the store's numbering
     template <class Make>
@@ -36,12 +37,17 @@ public:
             if (flow_) flow_->map_throats([&](std::int32_t i, std::int32_t j) { return pairs.find_force(i, j); });
     }
 
-    /// Geometry, apertures, flow, pressures; then their forces, written to `out`, a record per particle.
+    /// Geometry, apertures, flow, pressures; then their forces, written to `out`, a record per particle. With an
+    /// interval n the last of every n steps lets fluid flow, for the time of all n.
+    /// \param number of the step, from 0
     template <bool WithLedger, class Pairs>
-    void step(store_type const& store, Pairs const& pairs, real dt, int threads, record_column<real>& out) {
+    void step(store_type const& store, Pairs const& pairs, real dt, long long number, int threads,
+              record_column<real>& out) {
         if constexpr (has_fluid<Model>)
             if (flow_) {
-                flow_->template step<WithLedger>(store.place(), pairs.force_column(), dt, threads);
+                int const interval = flow_->settings().interval;
+                real const flow_time = (number + 1) % interval == 0 ? dt * real(interval) : real(0);
+                flow_->template step<WithLedger>(store.place(), pairs.force_column(), flow_time, threads);
                 flow_->write_tractions(out, threads);
             }
     }

@@ -15,7 +15,7 @@ namespace lacuna {
 struct time_step_limits {
     double equation_9 = 0;  ///< as the paper gives it: shortest distance over wave speed, from the stiffest light pair
     double equation_19 = 0; ///< as the paper gives it, for the fluid; infinite without flow
-    double flow = 0;        ///< rigorous, for the fluid alone; infinite without flow
+    double flow = 0;        ///< rigorous, for the fluid alone, as its substeps and interval have it; infinite without flow
     double rigorous = 0;    ///< rigorous, for particles with rotation, damping and the stiffness of the fluid
     /// What a step has to stay below.
     double critical() const noexcept { return rigorous < flow ? rigorous : flow; }
@@ -78,7 +78,7 @@ time_step_limits find_limits(Store const& store, Interactions const& interaction
         if (flow) {
             detail::add_fluid_stiffness(bound, store, *flow);
             result.equation_19 = double(flow->equation_19_time_step());
-            result.flow = double(flow->critical_time_step());
+            result.flow = double(flow->critical_time_step()) / flow->settings().interval;
         }
     double const against_motion = 1 + std::fabs(damping_type::particle_force(damping, 1.0, -1.0));
     result.rigorous = bound.time_step(dashpots, against_motion);
