@@ -70,6 +70,12 @@ dual<T, N> sqrt(dual<T, N> const& a) noexcept {
     return r;
 }
 template <class T, int N>
+dual<T, N> exp(dual<T, N> const& a) noexcept {
+    dual<T, N> r(std::exp(a.value));
+    for (int i = 0; i < N; ++i) r.derivative[i] = r.value * a.derivative[i];
+    return r;
+}
+template <class T, int N>
 dual<T, N> abs(dual<T, N> const& a) noexcept {
     return a.value < T(0) ? -a : a;
 }

@@ -160,6 +160,14 @@ pack<T, W> sqrt(pack<T, W> const& a) noexcept {
     return r;
 }
 
+/// Lane by lane with the standard library: the same bits as for a plain number.
+template <class T, int W>
+pack<T, W> exp(pack<T, W> const& a) noexcept {
+    pack<T, W> r;
+    for (int k = 0; k < W; ++k) r.v[k] = std::exp(a.v[k]);
+    return r;
+}
+
 template <class T, int W>
 bool any(pack_mask<T, W> const& m) noexcept {
 #if defined(__AVX512DQ__) && defined(__AVX512F__)

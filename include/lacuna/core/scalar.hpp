@@ -36,6 +36,10 @@ T sqrt(T x) noexcept {
     return std::sqrt(x);
 }
 template <std::floating_point T>
+T exp(T x) noexcept {
+    return std::exp(x);
+}
+template <std::floating_point T>
 T abs(T x) noexcept {
     return std::fabs(x);
 }

@@ -58,6 +58,67 @@ struct contact_force_aperture {
     }
 };
 
+/// Aperture of a crack between parallel plates:
+///
+///   a = h (a_r + w),   w = max(gap, 0)
+///
+/// w is the crack's opening displacement, counted from where the discs touch, a_r the mechanical width that is left when
+/// it is shut, whatever presses on it. h is the hydraulic over the mechanical aperture, f^(-1/3) for the roughness factor
+/// f of Witherspoon, Wang, Iwai and Gale (1980, "Validity of cubic law for fluid flow in a deformable rock fracture",
+/// Water Resour. Res. 16, 1016): 1 for smooth plates, f = 1.04 to 1.65 in their tests. With the conductivity
+/// k = depth / (12 mu) eq. 14 is their cubic law, q = depth w^3 / (12 mu f) dp / l.
+struct cubic_crack_aperture {
+    struct parameters {
+        double residual_aperture = 1e-8; ///< a_r, m; > 0
+        double hydraulic_factor = 1;     ///< h; > 0, <= 1
+
+        /// \throws std::invalid_argument naming field, value and rule.
+        void validate(std::string const& name) const {
+            require_positive(name + ".residual_aperture", residual_aperture);
+            if (!(hydraulic_factor > 0 && hydraulic_factor <= 1))
+                refuse(name + ".hydraulic_factor", hydraulic_factor, "> 0 and <= 1");
+        }
+    };
+    template <class T>
+    static T aperture(parameters const& p, T /*normal_force*/, T gap) {
+        return T(value_t<T>(p.hydraulic_factor)) * (T(value_t<T>(p.residual_aperture)) + max(gap, T(0)));
+    }
+};
+
+/// Aperture that compression closes exponentially, down to a residual one:
+///
+///   under compression        a = a_inf + (a_0 - a_inf) exp(-|F_n| / F_d)
+///   open or in tension       a = a_0 + m * gap      (gap counted from 0)
+///
+/// The law of fractures under normal stress, b = b_r + b_max exp(-alpha sigma) (Rutqvist, Wu, Tsang and Bodvarsson 2002,
+/// Int. J. Rock Mech. Min. Sci. 39, 429), written in the force: F_d = A / alpha for a bond or contact of area A.
+/// Continuous, and never below a_inf.
+struct exponential_aperture {
+    struct parameters {
+        double zero_force_aperture = 1e-8; ///< a_0, m; > 0
+        double residual_aperture = 1e-9;   ///< a_inf under great compression, m; > 0, <= a_0
+        double decay_force = 1e-4;         ///< F_d, compression that takes 1 - 1/e off a_0 - a_inf, N; > 0
+        double gap_factor = 1.0;           ///< m, share of the gap that adds to the aperture; 0 to 1
+
+        /// \throws std::invalid_argument naming field, value and rule.
+        void validate(std::string const& name) const {
+            require_positive(name + ".zero_force_aperture", zero_force_aperture);
+            require_positive(name + ".residual_aperture", residual_aperture);
+            if (!(residual_aperture <= zero_force_aperture))
+                refuse(name + ".residual_aperture", residual_aperture, "at most zero_force_aperture");
+            require_positive(name + ".decay_force", decay_force);
+            require_in(name + ".gap_factor", gap_factor, 0, 1);
+        }
+    };
+    template <class T>
+    static T aperture(parameters const& p, T normal_force, T gap) {
+        T most(value_t<T>(p.zero_force_aperture));
+        T least(value_t<T>(p.residual_aperture));
+        T squeezed = least + (most - least) * exp(min(normal_force, T(0)) * T(value_t<T>(1 / p.decay_force)));
+        return select(normal_force < T(0), squeezed, most + T(value_t<T>(p.gap_factor)) * max(gap, T(0)));
+    }
+};
+
 /// What the flow policies ask of an aperture law.
 template <class Law>
 concept aperture_law = requires(typename Law::parameters const& p) {
