@@ -63,7 +63,7 @@ void save_picture(std::string const& path, std::vector<curve> const& curves) {
         page.clear({1, 1, 1});
         draw_plot(page, {70, 50, 510, 400}, curves, "aperture (nm)", 0, 21, false,
                   [](sample const& s) { return 1e9 * s.aperture; });
-        draw_plot(page, {630, 50, 1070, 400}, curves, "conductance (m³/(Pa s))", -26, -21, true,
+        draw_plot(page, {630, 50, 1070, 400}, curves, "conductance (m³/(Pa s))", -25, -21, true,
                   [](sample const& s) { return std::log10(s.conductance); });
         std::vector<legend_entry> entries;
         for (std::size_t c = 0; c < curves.size(); ++c)
