@@ -21,11 +21,11 @@ struct any_pair_lookup {
 };
 } // namespace detail
 
-/// A flow solver of a model, the slot filled by explicit_flow and no_flow:
+/// A flow solver of a model, the slot filled by explicit_flow, implicit_flow and no_flow:
 ///   - `parameters`: an aggregate with defaults and `validate(std::string const& name)`;
 ///   - `solver<Real, Dim>`: made from (parameters, network, thickness, points, radii). step() and write_tractions() are
-///     called once per step, in this order, and allocate no memory; map_throats() whenever the pairs' places in
-///     memory change.
+///     called once per step, in this order; map_throats() whenever the pairs' places in memory change. A step of 0 s
+///     lets pressures follow the volumes, and nothing flow.
 template <class Policy>
 concept flow_policy = requires(typename Policy::parameters const& parameters,
                                typename Policy::template solver<double, 2>& solver,
