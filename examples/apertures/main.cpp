@@ -99,7 +99,7 @@ void save_table(std::string const& path, std::vector<apertures::curve> const& cu
 
 int main(int argc, char** argv) {
     if (argc > 2 || (argc == 2 && argv[1][0] == '-')) {
-        std::fprintf(stderr, "apertures [stem]: writes stem.csv and stem.png; stem is \"apertures\" where none is given\n");
+        std::fputs("apertures [stem]: writes stem.csv and stem.png; stem is \"apertures\" where none is given\n", stderr);
         return 2;
     }
     try {

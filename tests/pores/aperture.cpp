@@ -48,7 +48,9 @@ TEST_CASE("aperture laws over packs and dual numbers") {
 
 TEST_CASE("aperture of a crack between plates") {
     cubic_crack_aperture::parameters const smooth{2e-7, 1};
-    auto const a = [](auto const& p, double force, double gap) { return cubic_crack_aperture::aperture(p, force, gap); };
+    auto const a = [](auto const& p, double force, double gap) {
+        return cubic_crack_aperture::aperture(p, force, gap);
+    };
     REQUIRE_THAT(a(smooth, 0, 0), WithinRel(2e-7, 1e-15));
     REQUIRE_THAT(a(smooth, -5, -1e-6), WithinRel(2e-7, 1e-15));
     REQUIRE_THAT(a(smooth, 5, 3e-7), WithinRel(5e-7, 1e-15));
@@ -135,7 +137,8 @@ TEST_CASE("aperture parameters out of range are refused by name") {
     REQUIRE_THROWS_WITH(c.validate("a"), contains_text("a.residual_aperture = 0"));
     exponential_aperture::parameters e;
     e.residual_aperture = 2e-8;
-    REQUIRE_THROWS_WITH(e.validate("a"), contains_text("a.residual_aperture = 2e-08: must be at most zero_force_aperture"));
+    REQUIRE_THROWS_WITH(e.validate("a"),
+                        contains_text("a.residual_aperture = 2e-08: must be at most zero_force_aperture"));
     e = {};
     e.decay_force = 0;
     REQUIRE_THROWS_WITH(e.validate("a"), contains_text("a.decay_force"));

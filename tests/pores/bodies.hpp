@@ -99,7 +99,8 @@ inline body triangular(int rows, int columns) {
 /// A motion that turns pores about, to be added to a body at rest.
 inline void stir(body& b, body const& rest, double phase, double amplitude = 0.01) {
     for (std::size_t i = 0; i < b.x.size(); ++i)
-        b.x[i] = rest.x[i] + point{std::sin(5 * phase + 0.3 * double(i)), std::cos(4 * phase + 0.7 * double(i))} * amplitude;
+        b.x[i] = rest.x[i] +
+                 point{std::sin(5 * phase + 0.3 * double(i)), std::cos(4 * phase + 0.7 * double(i))} * amplitude;
 }
 
 } // namespace bodies

@@ -153,7 +153,8 @@ TEST_CASE("a loaded surface is chosen by its particles; rules are asked in order
     REQUIRE_THROWS_WITH(find_source(net, "right"), contains_text("flow source = right"));
     int under = 0, beside = 0;
     for (std::size_t t = net.interior_throats; t < net.open_throats(); ++t) {
-        bool const both = loaded[std::size_t(net.throat_particle[0][t])] && loaded[std::size_t(net.throat_particle[1][t])];
+        auto const chosen = [&](std::size_t side) { return loaded[std::size_t(net.throat_particle[side][t])] != 0; };
+        bool const both = chosen(0) && chosen(1);
         REQUIRE(net.throat_source[t] == (both ? 0 : 1));
         REQUIRE(net.reservoir_pressure[t] == (both ? 3.0 : 1.0));
         ++(both ? under : beside);

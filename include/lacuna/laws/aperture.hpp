@@ -62,11 +62,11 @@ struct contact_force_aperture {
 ///
 ///   a = h (a_r + w),   w = max(gap, 0)
 ///
-/// w is the crack's opening displacement, counted from where the discs touch, a_r the mechanical width that is left when
-/// it is shut, whatever presses on it. h is the hydraulic over the mechanical aperture, f^(-1/3) for the roughness factor
-/// f of Witherspoon, Wang, Iwai and Gale (1980, "Validity of cubic law for fluid flow in a deformable rock fracture",
-/// Water Resour. Res. 16, 1016): 1 for smooth plates, f = 1.04 to 1.65 in their tests. With the conductivity
-/// k = depth / (12 mu) eq. 14 is their cubic law, q = depth w^3 / (12 mu f) dp / l.
+/// w is the crack's opening displacement, counted from where the discs touch, a_r the mechanical width that is left
+/// when it is shut, whatever presses on it. h is the hydraulic over the mechanical aperture, f^(-1/3) for the roughness
+/// factor f of Witherspoon, Wang, Iwai and Gale (1980, "Validity of cubic law for fluid flow in a deformable rock
+/// fracture", Water Resour. Res. 16, 1016): 1 for smooth plates, f = 1.04 to 1.65 in their tests. With the conductivity
+/// k = depth / (12 mu) eq. 14 is their cubic law, q = depth (a_r + w)^3 / (12 mu f) dp / l.
 struct cubic_crack_aperture {
     struct parameters {
         double residual_aperture = 1e-8; ///< a_r, m; > 0
@@ -90,8 +90,8 @@ struct cubic_crack_aperture {
 ///   under compression        a = a_inf + (a_0 - a_inf) exp(-|F_n| / F_d)
 ///   open or in tension       a = a_0 + m * gap      (gap counted from 0)
 ///
-/// The law of fractures under normal stress, b = b_r + b_max exp(-alpha sigma) (Rutqvist, Wu, Tsang and Bodvarsson 2002,
-/// Int. J. Rock Mech. Min. Sci. 39, 429), written in the force: F_d = A / alpha for a bond or contact of area A.
+/// The law of fractures under normal stress, b = b_r + b_max exp(-alpha sigma) (Rutqvist, Wu, Tsang and Bodvarsson
+/// 2002, Int. J. Rock Mech. Min. Sci. 39, 429), written in the force: F_d = A / alpha for a contact of area A.
 /// Continuous, and never below a_inf.
 struct exponential_aperture {
     struct parameters {

@@ -22,7 +22,8 @@ struct any_pair_lookup {
 } // namespace detail
 
 /// A flow solver of a model, the slot filled by explicit_flow, implicit_flow and no_flow:
-///   - `parameters`: an aggregate with defaults and `validate(std::string const& name)`;
+///   - `parameters`: an aggregate with defaults and `validate(std::string const& name)`; those of a fluid have
+///     `interval` and `bulk_modulus`, and its solver returns them as settings();
 ///   - `solver<Real, Dim>`: made from (parameters, network, thickness, points, radii). step() and write_tractions() are
 ///     called once per step, in this order; map_throats() whenever the pairs' places in memory change. A step of 0 s
 ///     lets pressures follow the volumes, and nothing flow.

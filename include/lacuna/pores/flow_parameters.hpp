@@ -25,7 +25,8 @@ struct flow_parameters {
     int substeps = 1;
     /// Fluid flows through throats in one of so many steps of a simulation, for the time of all of them. In the others
     /// pressures follow the volumes alone: the fluid's stiffness acts in every step, so the step's bound stays rigorous
-    /// and no energy comes in, as it would with pressures that wait.
+    /// and no energy comes in, as it would with pressures that wait. Of steps left over at the end of a run nothing has
+    /// flowed.
     int interval = 1;
     typename Aperture::parameters aperture{};
 

@@ -49,7 +49,8 @@ std::vector<std::int32_t> connect_sources(std::vector<flow_source>& sources, std
         if (r.source < 0) continue;
         auto const s = std::size_t(r.source);
         if (r.rank == 0 || drained != (sources[s].kind == flow_source_kind::pressure))
-            refuse("source of a throat", sources[s].name, "a pressure behind a drained throat or a rate at a sealed one");
+            refuse("source of a throat", sources[s].name,
+                   "a pressure behind a drained throat or a rate at a sealed one");
         if (!drained) {
             sources[s].pores.push_back(r.pore[0]);
             sources[s].shares.push_back(r.width);

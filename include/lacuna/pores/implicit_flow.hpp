@@ -56,8 +56,8 @@ struct implicit_flow_parameters : flow_parameters<Aperture> {
 /// explicit scheme, so that mass is kept to rounding. Where a step is R times the explicit limit, differences between
 /// the pressures of neighbours carry rounding of R times 1e-16 of themselves.
 ///
-/// How far an earlier factorisation is from the present numbers leaves its trace below `solver_tolerance`: a run that is
-/// restored has the same bits as one that is not with `factorisation_tolerance` = 0.
+/// How far an earlier factorisation is from the present numbers leaves its trace below `solver_tolerance`: a run that
+/// is restored has the same bits as one that is not with `factorisation_tolerance` = 0.
 ///
 /// Memory is allocated when a topology is analysed and when numbers are factorised, in no other step. The equations are
 /// solved on one thread, in double precision also for float: the same bits for any number of threads.

@@ -33,8 +33,8 @@ template <class Real>
 struct throat_boundary {
     boundary_kind kind = boundary_kind::sealed;
     Real pressure = Real(0); ///< of the reservoir behind a drained throat, Pa
-    /// Number of the flow_source: the reservoir behind a drained throat, or a rate that is fed into the pore at a sealed
-    /// one. Without, drained throats belong to a source of their own, "drained".
+    /// Number of the flow_source: the reservoir behind a drained throat, or a rate that is fed into the pore at a
+    /// sealed one. Without, drained throats belong to a source of their own, "drained".
     std::int32_t source = -1;
 };
 

@@ -15,7 +15,7 @@ namespace lacuna {
 struct time_step_limits {
     double equation_9 = 0;  ///< as the paper gives it: shortest distance over wave speed, from the stiffest light pair
     double equation_19 = 0; ///< as the paper gives it, for the fluid; infinite without flow
-    double flow = 0;        ///< rigorous, for the fluid alone, as its substeps and interval have it; infinite without flow
+    double flow = 0;        ///< rigorous, for the fluid alone with its substeps and interval; infinite without flow
     double rigorous = 0;    ///< rigorous, for particles with rotation, damping and the stiffness of the fluid
     /// What a step has to stay below.
     double critical() const noexcept { return rigorous < flow ? rigorous : flow; }
