@@ -29,7 +29,7 @@ pore_mesh<2> mesh_of(points const& x, std::vector<double> const& r) {
 pore_mesh<2> body_of(points const& x, std::vector<double> const& r, double cutoff = 0) {
     return triangulate_body(view_points(x), r.data(), cutoff);
 }
-double area_of(pore_mesh<2> const& mesh, points const& x) { return mesh_area(mesh, view_points(x)); }
+double area_of(pore_mesh<2> const& mesh, points const& x) { return mesh_size(mesh, view_points(x)); }
 
 /// Area of the convex hull by wrapping it like a gift.
 double wrapped_area(points const& x) {
@@ -280,6 +280,82 @@ TEST_CASE("touching discs share an edge, whatever their radii") {
         auto const mesh = mesh_of(x, r);
         require_well_formed(mesh, x);
         for (auto const& [a, b] : contacts) REQUIRE(has_edge(mesh, a, b));
+    }
+}
+
+TEST_CASE("dense packings of radii from 1 to 10, each disc laid against two: every contact is an edge") {
+    std::mt19937_64 engine(23);
+    for (int trial = 0; trial < 3; ++trial) {
+        points x{{0, 0}, {2, 0}};
+        std::vector<double> r{1, 1};
+        std::vector<std::pair<int, int>> contacts{{0, 1}};
+        while (x.size() < 150) {
+            double const radius = std::pow(10.0, uniform(engine));
+            point best{};
+            std::pair<int, int> hosts{-1, -1};
+            for (std::size_t i = 0; i < x.size(); ++i)
+                for (std::size_t j = 0; j < x.size(); ++j) {
+                    point const along = x[j] - x[i];
+                    double const apart = norm(along), to_i = r[i] + radius, to_j = r[j] + radius;
+                    if (i == j || apart >= to_i + to_j) continue;
+                    double const share = (apart * apart + to_i * to_i - to_j * to_j) / (2 * apart);
+                    point const centre = x[i] + along * (share / apart) +
+                                         perpendicular(along) * (std::sqrt(to_i * to_i - share * share) / apart);
+                    if (hosts.first >= 0 && squared_norm(centre) >= squared_norm(best)) continue;
+                    bool free = true;
+                    for (std::size_t k = 0; free && k < x.size(); ++k)
+                        free = k == i || k == j || norm(x[k] - centre) > (r[k] + radius) * (1 + 1e-9);
+                    if (!free) continue;
+                    best = centre;
+                    hosts = {int(i), int(j)};
+                }
+            REQUIRE(hosts.first >= 0);
+            contacts.push_back({hosts.first, int(x.size())});
+            contacts.push_back({hosts.second, int(x.size())});
+            x.push_back(best);
+            r.push_back(radius);
+        }
+        REQUIRE(*std::max_element(r.begin(), r.end()) > 8 * *std::min_element(r.begin(), r.end()));
+        auto const mesh = mesh_of(x, r);
+        require_well_formed(mesh, x);
+        require_regular(mesh, x, r);
+        for (auto const& [a, b] : contacts) REQUIRE(has_edge(mesh, a, b));
+    }
+}
+
+TEST_CASE("far from the origin, and with pairs nearly at one place") {
+    std::mt19937_64 engine(29);
+    for (double const offset : {0.0, 1e3, 1e6}) {
+        points x;
+        std::vector<double> r;
+        for (int k = 0; k < 100; ++k) {
+            x.push_back({uniform(engine), uniform(engine)});
+            r.push_back(0.03 * uniform(engine));
+        }
+        for (std::size_t k = 0; k < 20; ++k) {
+            x.push_back(x[k] + point{1e-7 * uniform(engine), 1e-7 * uniform(engine)});
+            r.push_back(r[k]);
+        }
+        points moved;
+        for (auto const& y : x) moved.push_back(y + point{offset, -3 * offset});
+        // Places of the moved points as their rounded numbers have them.
+        points back;
+        for (auto const& y : moved) back.push_back(y - point{offset, -3 * offset});
+        auto const mesh = mesh_of(moved, r);
+        require_well_formed(mesh, back);
+        require_regular(mesh, back, r);
+        REQUIRE_THAT(area_of(mesh, back), WithinRel(wrapped_area(back), 1e-9));
+    }
+}
+
+TEST_CASE("a strip of particles hardly wider than a line") {
+    std::mt19937_64 engine(31);
+    for (double const width : {1e-3, 1e-5, 1e-7}) {
+        points x;
+        for (int k = 0; k < 60; ++k) x.push_back({uniform(engine), width * uniform(engine)});
+        auto const mesh = mesh_of(x, std::vector<double>(60, 1e-4));
+        require_well_formed(mesh, x);
+        REQUIRE_THAT(area_of(mesh, x), WithinRel(wrapped_area(x), 1e-7));
     }
 }
 
