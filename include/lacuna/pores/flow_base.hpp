@@ -17,6 +17,7 @@
 #include <lacuna/pores/corner_rows.hpp>
 #include <lacuna/pores/flow_sums.hpp>
 #include <lacuna/pores/flow_time_step.hpp>
+#include <lacuna/pores/merging.hpp>
 #include <lacuna/pores/pore_feed.hpp>
 #include <lacuna/pores/pore_network.hpp>
 #include <lacuna/pores/pore_pass.hpp>
@@ -39,6 +40,9 @@ public:
     parameters const& settings() const noexcept { return parameters_; }
     /// Kept by the steps with a ledger; what the sources have brought (network().sources) is kept by all steps.
     flow_ledger<Real> const& ledger() const noexcept { return ledger_; }
+
+    /// Pores that have become one.
+    pore_clusters<Real> const& clusters() const noexcept { return clusters_; }
 
     /// \throws std::invalid_argument for a pore that is not there, a pressure not finite or below the minimum.
     void set_pressure(std::size_t pore, Real pressure) {
@@ -104,14 +108,12 @@ public:
     std::size_t skip_idle_throats(Real duration) {
         require_positive("duration", double(duration));
         for (std::size_t t = 0; t < network_.open_throats(); ++t) {
-            auto const other = network_.throat_pore[1][t];
-            Real rate = Real(1) / network_.volume[std::size_t(network_.throat_pore[0][t])];
-            if (other >= 0) rate += Real(1) / network_.volume[std::size_t(other)];
-            double const limit = 2 / (parameters_.bulk_modulus * double(network_.conductance[t]) * double(rate));
+            double const limit = throat_time_step(network_, t, parameters_.bulk_modulus);
             network_.idle[t] = limit <= parameters_.skip_ratio * double(duration) ? 0 : 1;
             if (network_.idle[t]) network_.flow[t] = Real(0);
         }
         throats_.collect_active(network_);
+        clusters_.update(network_);
         return network_.open_throats() - throats_.active_throats();
     }
 
@@ -129,13 +131,7 @@ public:
 
     /// Energy stored in the compressed fluid, sum of V p^2 / 2 K_f, J.
     Real storage_energy() const noexcept {
-        using lanes = pack<Real, native_width<Real>>;
-        lanes total(Real(0));
-        for (std::size_t p = 0; p < network_.pores(); p += lanes::width) {
-            lanes pressure = lanes::load(network_.pressure.data() + p);
-            total += lanes::load(network_.volume.data() + p) * pressure * pressure;
-        }
-        return sum(total) / Real(2 * parameters_.bulk_modulus);
+        return lacuna::storage_energy(network_, parameters_.bulk_modulus);
     }
 
     /// Eq. 19 as printed, s: not safe where apertures differ. Skipped throats count.
@@ -167,6 +163,7 @@ protected:
             pores_.set_fillers(network_);
             throats_.collect_active(network_);
             feed_.build(network_);
+            clusters_.build(network_, parameters_.merge_conductance);
         } else {
             build_tables();
         }
@@ -174,7 +171,10 @@ protected:
     }
 
     bool flows() const noexcept { return throats_.active_throats() > 0; }
-    Real substep_limit() const noexcept { return flow_critical_time_step(network_, parameters_.bulk_modulus); }
+    Real substep_limit() const noexcept {
+        return clusters_.on() ? clusters_.critical_time_step(network_, parameters_.bulk_modulus)
+                              : flow_critical_time_step(network_, parameters_.bulk_modulus);
+    }
 
     /// New volumes and forces for 1 Pa.
     void measure(Real const* place, int threads) noexcept {
@@ -199,9 +199,9 @@ protected:
     /// \param share see pore_table::advance()
     template <bool Fused, bool WithLedger>
     void advance_pressures(Real const* place, Real dt, Real share, bool flowing, int threads) noexcept {
-        pore_constants<Real> const fluid{Real(parameters_.bulk_modulus), thickness_,
-                                         Real(parameters_.minimum_pressure)};
+        auto const fluid = constants();
         feed_.remember(network_);
+        if constexpr (WithLedger) clusters_.remember(network_);
         for_each_chunk(pores_.chunks(), threads, [&](int c) {
             pores_.template advance<Fused, WithLedger>(c, network_, place, fluid, dt, flowing, share,
                                                        pore_sums_[std::size_t(c)]);
@@ -209,8 +209,11 @@ protected:
         pore_sums<Real> pores;
         throat_sums<Real> throats;
         feed_.apply(network_, fluid, dt, flowing, pores, throats);
-        if constexpr (Fused)
+        clusters_.template equalise<WithLedger>(network_, fluid, pores);
+        if constexpr (Fused) {
             for (auto const& f : feed_.pores()) pores_.press_one(f.pore, network_, place, thickness_);
+            for (auto const p : clusters_.members()) pores_.press_one(std::size_t(p), network_, place, thickness_);
+        }
         if constexpr (WithLedger) {
             int const chunks = throats_.chunks(false);
             for_each_chunk(chunks, threads, [&](int c) {
@@ -239,6 +242,9 @@ protected:
     template <bool WithLedger>
     void begin_step() noexcept {
         if constexpr (WithLedger) open_step(ledger_);
+        clusters_.update(network_);
+        Real const lost = clusters_.settle(network_, constants());
+        if constexpr (WithLedger) ledger_.dissipation += lost;
     }
     void end_step(Real dt) noexcept {
         if (dt > Real(0)) feed_.close(network_, dt);
@@ -249,6 +255,7 @@ protected:
     network_type network_;
     flow_ledger<Real> ledger_;
     pore_feed<Real> feed_;
+    pore_clusters<Real> clusters_;
 
 private:
     flow_base(parameters const& p, network_type network, Real thickness)
@@ -281,8 +288,12 @@ private:
         corners_.build(
             particles, [&](auto const& visit) { pores_.for_each_corner(network_, visit); }, pores_.zero_offset());
         feed_.build(network_);
+        clusters_.build(network_, parameters_.merge_conductance);
     }
 
+    pore_constants<Real> constants() const noexcept {
+        return {Real(parameters_.bulk_modulus), thickness_, Real(parameters_.minimum_pressure)};
+    }
     void check_pressure(std::string const& what, double pressure) const {
         require_finite(what, pressure);
         if (!(pressure >= parameters_.minimum_pressure)) refuse(what, pressure, ">= minimum_pressure");

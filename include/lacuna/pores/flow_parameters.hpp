@@ -28,6 +28,9 @@ struct flow_parameters {
     /// and no energy comes in, as it would with pressures that wait. Of steps left over at the end of a run nothing has
     /// flowed.
     int interval = 1;
+    /// A throat that lets more through than this joins its two pores into one (pore_clusters), m^3/(s Pa); > 0,
+    /// infinity: never.
+    double merge_conductance = std::numeric_limits<double>::infinity();
     typename Aperture::parameters aperture{};
 
     /// \throws std::invalid_argument naming field, value and rule.
@@ -43,6 +46,7 @@ struct flow_parameters {
         require_in(name + ".substeps", substeps, 0, 1000000);
         require_in(name + ".interval", interval, 1, 1000000);
         if (!(skip_ratio > 0)) refuse(name + ".skip_ratio", skip_ratio, "> 0");
+        if (!(merge_conductance > 0)) refuse(name + ".merge_conductance", merge_conductance, "> 0");
         aperture.validate(name + ".aperture");
     }
 };

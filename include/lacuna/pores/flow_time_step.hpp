@@ -32,6 +32,16 @@ Real flow_critical_time_step(pore_network<Real, Dim> const& net, double bulk_mod
     return Real(limit);
 }
 
+/// Longest step of a throat by itself, s: 2 / (K_f C (1/V_1 + 1/V_2)); infinity where it is shut.
+/// \param bulk_modulus K_f, Pa
+template <class Real, int Dim>
+double throat_time_step(pore_network<Real, Dim> const& net, std::size_t throat, double bulk_modulus) noexcept {
+    auto const other = net.throat_pore[1][throat];
+    Real rate = Real(1) / net.volume[std::size_t(net.throat_pore[0][throat])];
+    if (other >= 0) rate += Real(1) / net.volume[std::size_t(other)];
+    return 2 / (bulk_modulus * double(net.conductance[throat]) * double(rate));
+}
+
 /// Eq. 19 as printed, dt = 2 R V_p / (N K_f k a^3), the least over the pores, s: R the mean radius of the particles
 /// around the pore, N its open throats (skipped ones included), a their mean aperture. Up to nearly twice too long
 /// where apertures differ; flow_critical_time_step() is safe.
