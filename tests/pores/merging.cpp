@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <lacuna/pores/explicit_flow.hpp>
+#include <lacuna/pores/implicit_flow.hpp>
 #include <lacuna/pores/triangulation.hpp>
 
 using namespace lacuna;
@@ -289,4 +290,42 @@ TEST_CASE("a restored state with clusters goes on with the same bits, and a bad 
     REQUIRE(later.ledger().dissipation == flow.ledger().dissipation);
     REQUIRE_THROWS_WITH(b.flow(parameters(0)), contains_text("flow.merge_conductance = 0"));
     REQUIRE_THROWS_WITH(b.flow(parameters(std::nan(""))), contains_text("flow.merge_conductance"));
+}
+
+TEST_CASE("implicit flow: merged pores are one, and follow the explicit clusters as the step shrinks") {
+    using implicit_solver = implicit_flow::solver<double, 2>;
+    body const b(17, 6, 7);
+    auto p = parameters(0.01);
+    implicit_solver::parameters q;
+    static_cast<solver::parameters&>(q) = p;
+    auto const points = view_points(b.x);
+    double last = infinity;
+    for (int const steps : {20, 200}) {
+        implicit_solver other(q, make_pore_network(triangulate_body(points, b.r.data()), points, b.r.data()), 1.0, points,
+                              b.r.data());
+        solver sealed(p, make_pore_network(triangulate_body(points, b.r.data()), points, b.r.data()), 1.0, points,
+                      b.r.data());
+        for (std::size_t k = 0; k < other.network().pores(); ++k) {
+            double const pressure = std::sin(double(k));
+            other.set_pressure(k, pressure);
+            sealed.set_pressure(k, pressure);
+        }
+        double const before = content(sealed);
+        double const dt = 0.02 / steps;
+        for (int n = 0; n < steps; ++n) {
+            other.step<true>(b.place(), body::no_force, dt);
+            sealed.step<true>(b.place(), body::no_force, dt);
+        }
+        auto const& net = other.network();
+        REQUIRE(other.clusters().members().size() > 4);
+        double error = 0, after = 0;
+        for (std::size_t k = 0; k < net.pores(); ++k) {
+            REQUIRE(net.pressure[k] == net.pressure[other.clusters().label(k)]);
+            error = std::max(error, std::fabs(net.pressure[k] - sealed.network().pressure[k]));
+            after += net.volume[k] * (1 + net.pressure[k] / 1000);
+        }
+        REQUIRE_THAT(after, WithinRel(before, 1e-12));
+        if (last < infinity) REQUIRE_THAT(last / error, WithinRel(10.0, 0.3));
+        last = error;
+    }
 }

@@ -47,7 +47,7 @@ public:
     /// \throws std::invalid_argument for a pore that is not there, a pressure not finite or below the minimum.
     void set_pressure(std::size_t pore, Real pressure) {
         if (pore >= network_.pores()) refuse("pore", double(pore), "a pore of the network");
-        check_pressure("pressure of pore " + std::to_string(pore), double(pressure));
+        parameters_.require_pressure("pressure of pore " + std::to_string(pore), double(pressure));
         network_.pressure[pore] = pressure;
     }
     /// Changes what a source prescribes from the next step on: Pa, or m^3/s.
@@ -57,7 +57,7 @@ public:
         auto& source = network_.sources[number];
         std::string const name = "flow source " + source.name;
         if (source.kind == flow_source_kind::pressure)
-            check_pressure(name, value);
+            parameters_.require_pressure(name, value);
         else
             require_finite(name, value);
         source.value = value;
@@ -69,13 +69,7 @@ public:
     /// New pore volumes. The volume change that the next step sees is that since the last one. step() does it itself.
     void refresh_geometry(points_view<Real, Dim> points, Real const* radii) {
         if (network_.bare()) return;
-        record_column<Real> place;
-        place.resize(points.size());
-        for (std::size_t k = 0; k < points.size(); ++k) {
-            place.at(k, 0) = points(k, 0);
-            place.at(k, 1) = points(k, 1);
-            place.at(k, 3) = radii[k];
-        }
+        auto const place = particle_records(points, radii);
         for (int c = 0; c < pores_.chunks(); ++c) pores_.measure(c, network_, place.data(), thickness_);
     }
 
@@ -264,10 +258,10 @@ private:
         require_positive("thickness", double(thickness));
         for (std::size_t k = 0; k < network_.pores(); ++k) {
             network_.pressure[k] += Real(p.initial_pressure);
-            check_pressure("initial pressure of pore " + std::to_string(k), double(network_.pressure[k]));
+            parameters_.require_pressure("initial pressure of pore " + std::to_string(k), double(network_.pressure[k]));
         }
         for (auto const& source : network_.sources)
-            if (source.kind == flow_source_kind::pressure) check_pressure("flow source " + source.name, source.value);
+            if (source.kind == flow_source_kind::pressure) parameters_.require_pressure("flow source " + source.name, source.value);
         if (!network_.bare()) {
             Real const aperture = aperture_type::aperture(p.aperture, Real(0), Real(0));
             std::fill(network_.aperture.begin(), network_.aperture.end(), aperture);
@@ -293,10 +287,6 @@ private:
 
     pore_constants<Real> constants() const noexcept {
         return {Real(parameters_.bulk_modulus), thickness_, Real(parameters_.minimum_pressure)};
-    }
-    void check_pressure(std::string const& what, double pressure) const {
-        require_finite(what, pressure);
-        if (!(pressure >= parameters_.minimum_pressure)) refuse(what, pressure, ">= minimum_pressure");
     }
 
     pore_table<Real> pores_;

@@ -49,6 +49,11 @@ struct flow_parameters {
         if (!(merge_conductance > 0)) refuse(name + ".merge_conductance", merge_conductance, "> 0");
         aperture.validate(name + ".aperture");
     }
+    /// \throws std::invalid_argument for a pressure that the fluid cannot have.
+    void require_pressure(std::string const& name, double pressure) const {
+        require_finite(name, pressure);
+        if (!(pressure >= minimum_pressure)) refuse(name, pressure, ">= minimum_pressure");
+    }
 };
 
 } // namespace lacuna

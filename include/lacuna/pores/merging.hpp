@@ -9,7 +9,6 @@
 
 #include <lacuna/pores/flow_sums.hpp>
 #include <lacuna/pores/pore_network.hpp>
-#include <lacuna/pores/pore_pass.hpp>
 
 namespace lacuna {
 

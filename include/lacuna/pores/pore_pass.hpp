@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <lacuna/core/pack.hpp>
+#include <lacuna/core/points.hpp>
 #include <lacuna/core/records.hpp>
 #include <lacuna/pores/flow_sums.hpp>
 #include <lacuna/pores/geometry.hpp>
@@ -19,6 +20,19 @@
 /// The pass of the flow step over the pores, pack by pack.
 
 namespace lacuna {
+
+/// Records of particles as particle_store has them, as far as pores read them: {x, y, -, radius}, m.
+template <class Real>
+record_column<Real> particle_records(points_view<Real, 2> points, Real const* radii) {
+    record_column<Real> place;
+    place.resize(points.size());
+    for (std::size_t k = 0; k < points.size(); ++k) {
+        place.at(k, 0) = points(k, 0);
+        place.at(k, 1) = points(k, 1);
+        place.at(k, 3) = radii[k];
+    }
+    return place;
+}
 
 /// What the pass reads and writes besides the network: where the corners' records begin, least volumes, the throats
 /// of each pore, and the forces on the corners. Whole packs; the last pore fills up the last one, with a least volume
