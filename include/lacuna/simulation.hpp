@@ -100,14 +100,14 @@ public:
 
     /// Fills the pores with fluid (models with flow; before the first step).
     /// \param make callable (points_view positions, Real const* radii) -> pore_network, in the simulation's own
-    ///        numbering of particles; see triangulate_body() and make_pore_network()
+    ///        numbering of particles; see triangulate_body() and make_pore_network(). With remeshing a copy is kept,
+    ///        and called again whenever the mesh is made anew: what it refers to has to stay.
     /// \throws std::invalid_argument for flow parameters out of range
     template <class Make>
     void fill_pores(Make const& make)
         requires(has_fluid<Model>)
     {
-        fluid_.fill(store_, parameters_.flow, parameters_.thickness, make);
-        fluid_.map_throats(interactions_);
+        fluid_.fill(store_, interactions_, parameters_.flow, parameters_.remeshing, parameters_.thickness, make);
         time_step_.reset();
     }
 
@@ -274,9 +274,10 @@ private:
             fluid_.map_throats(interactions_);
             skip_idle_throats();
         }
-        if (filled())
+        if (filled()) {
             fluid_.template step<WithEnergy>(store_, interactions_, dt, step_, parameters_.threads, extra_);
-        else
+            if (fluid_.remesh(store_, interactions_, step_)) skip_idle_throats();
+        } else
             std::fill(extra_.data(), extra_.data() + 4 * extra_.size(), real(0));
         if (!walls_.empty()) {
             auto const beyond = walls_.evaluate(store_, dt, parameters_.damping, extra_, wall_energy_);

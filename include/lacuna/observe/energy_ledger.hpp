@@ -21,19 +21,20 @@ struct energy_ledger {
     double fluid_storage = 0; ///< compressed fluid
     double fluid_viscous = 0; ///< dissipated in throats
     double fluid_outflow = 0; ///< carried out through drained boundaries and cut off by limits of the fluid
+    double fluid_remesh = 0;  ///< taken out of the compressed fluid where pores were triangulated anew
     double external = 0;      ///< work of loads, gravity, and prescribed motion
     double initial = 0;       ///< energy in the system at the start
 
     /// What does not add up: energy that is there or was spent, less energy that came in.
     double residual() const noexcept {
-        return kinetic + strain + friction + damping + fracture + fluid_storage + fluid_viscous + fluid_outflow -
-               external - initial;
+        return kinetic + strain + friction + damping + fracture + fluid_storage + fluid_viscous + fluid_outflow +
+               fluid_remesh - external - initial;
     }
     /// The largest term, to which a residual is to be compared.
     double largest() const noexcept {
         double m = 0;
         for (double const term : {kinetic, strain, friction, damping, fracture, fluid_storage, fluid_viscous,
-                                  fluid_outflow, external, initial})
+                                  fluid_outflow, fluid_remesh, external, initial})
             m = std::max(m, std::fabs(term));
         return m;
     }

@@ -59,6 +59,12 @@ Real common_area(std::array<vec<Real, 2>, 3> const& one, std::array<vec<Real, 2>
     return max(twice / Real(2), Real(0));
 }
 
+/// By which the pores of a network are in ascending order.
+template <class Real>
+std::array<std::int32_t, 3> corners(pore_network<Real, 2> const& net, std::size_t pore) noexcept {
+    return {net.corner[0][pore], net.corner[1][pore], net.corner[2][pore]};
+}
+
 /// A changed pore as a triangle, turned back if it has turned over, with its extent in x.
 template <class Real>
 struct changed_pore {
@@ -127,6 +133,17 @@ void carry_throats(pore_network<Real, 2> const& from, pore_network<Real, 2>& to)
 
 } // namespace detail
 
+/// Gives pores that are in both networks the size that they were built with: their least volume goes by it.
+template <class Real>
+void keep_sizes(pore_network<Real, 2> const& from, pore_network<Real, 2>& to) {
+    std::size_t a = 0;
+    for (std::size_t b = 0; b < to.pores(); ++b) {
+        auto const wanted = detail::corners(to, b);
+        while (a < from.pores() && detail::corners(from, a) < wanted) ++a;
+        if (a < from.pores() && detail::corners(from, a) == wanted) to.size[b] = from.size[a];
+    }
+}
+
 /// Carries the fluid of a network over to that of a new mesh of the same particles at the same places.
 ///
 /// A pore of both meshes keeps its volumes, its pressure and its vapour, to the bit. The other pores fall into regions:
@@ -145,16 +162,13 @@ carried_fluid carry_fluid(pore_network<Real, 2> const& from, pore_network<Real, 
     using namespace detail;
     constexpr auto none = std::size_t(-1);
     carried_fluid report;
-    auto const key = [](pore_network<Real, 2> const& net, std::size_t p) {
-        return std::array{net.corner[0][p], net.corner[1][p], net.corner[2][p]};
-    };
     // Pores are in the order of their corners. Nodes of the regions: all old pores, then all new ones.
     std::vector<std::size_t> twin(to.pores(), none), heir(from.pores(), none);
     std::vector<changed_pore<Real>> gone, fresh;
     std::size_t a = 0, b = 0;
     while (a < from.pores() || b < to.pores()) {
-        bool const old_first = b == to.pores() || (a < from.pores() && key(from, a) < key(to, b));
-        bool const new_first = a == from.pores() || (b < to.pores() && key(to, b) < key(from, a));
+        bool const old_first = b == to.pores() || (a < from.pores() && corners(from, a) < corners(to, b));
+        bool const new_first = a == from.pores() || (b < to.pores() && corners(to, b) < corners(from, a));
         if (old_first) {
             gone.push_back(look_at(from, a++, points));
         } else if (new_first) {

@@ -6,6 +6,7 @@
 
 #include <lacuna/model.hpp>
 #include <lacuna/particles/store.hpp>
+#include <lacuna/simulation/remesher.hpp>
 
 namespace lacuna {
 
@@ -23,11 +24,15 @@ public:
     flow_type* get() noexcept { return flow_ ? &*flow_ : nullptr; }
 
     /// \param make callable (positions, radii) -> pore_network in the store's numbering
-    template <class Make>
-    void fill(store_type const& store, typename Model::flow::parameters const& parameters, double thickness,
-              Make const& make) {
+    template <class Make, class Pairs>
+    void fill(store_type const& store, Pairs const& pairs, typename Model::flow::parameters const& parameters,
+              remesh_parameters const& remeshing, double thickness, Make const& make) {
         auto const* radii = store.radii().data();
         flow_.emplace(parameters, make(store.positions(), radii), real(thickness), store.positions(), radii);
+        if constexpr (has_fluid<Model>) {
+            remesher_.start(remeshing, make, real(thickness), *flow_, store.positions(), radii, pairs);
+            map_throats(pairs);
+        }
     }
 
     /// To be called when the pairs' forces have moved in memory.
@@ -52,6 +57,20 @@ public:
             }
     }
 
+    /// Gives the fluid a new mesh where remesh_parameters ask for one.
+    /// \param number of the step that has been made
+    /// \return whether the mesh is another
+    template <class Pairs>
+    bool remesh(store_type const& store, Pairs const& pairs, long long number) {
+        if constexpr (has_fluid<Model>)
+            if (flow_ && remesher_.remesh(*flow_, store.positions(), store.radii().data(), pairs, number)) {
+                map_throats(pairs);
+                flow_->refresh_apertures(store.place(), pairs.force_column());
+                return true;
+            }
+        return false;
+    }
+
     /// Decides which throats are left out of a run of `duration` s, and takes up again those that have opened.
     template <class Pairs>
     void skip_idle_throats(store_type const& store, Pairs const& pairs, double duration) {
@@ -64,6 +83,7 @@ public:
 
 private:
     std::optional<flow_type> flow_;
+    remesher<flow_type, real, Model::dim> remesher_;
 };
 
 } // namespace lacuna

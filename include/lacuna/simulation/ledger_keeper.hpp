@@ -69,6 +69,7 @@ private:
         if (first) fluid_start_ = now;
         ledger_.fluid_storage = double(flow.storage_energy());
         ledger_.fluid_viscous = double(now.dissipation - fluid_start_.dissipation);
+        ledger_.fluid_remesh = -double(now.remesh_energy - fluid_start_.remesh_energy);
         ledger_.fluid_outflow = -double(now.reservoir_work - fluid_start_.reservoir_work) -
                                 double(now.vapour_work - fluid_start_.vapour_work) -
                                 double(now.prefactor_work - fluid_start_.prefactor_work);

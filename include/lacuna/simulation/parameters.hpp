@@ -9,6 +9,7 @@
 #include <lacuna/interactions/walls.hpp>
 #include <lacuna/model.hpp>
 #include <lacuna/particles/material.hpp>
+#include <lacuna/pores/remesh.hpp>
 
 namespace lacuna {
 
@@ -26,6 +27,7 @@ struct simulation_parameters {
     typename Model::damping::parameters damping{};
     std::vector<wall<typename Model::contact_law, dim>> walls{};
     typename Model::flow::parameters flow{};
+    remesh_parameters remeshing{};                  ///< of the pores, as the body deforms; models with flow
     double time_step = 0;                           ///< s; 0: safety times the critical time step
     double safety = 0.2;                            ///< fraction of the critical time step
     bool allow_unstable_step = false;               ///< run even with a time step above the bound
@@ -45,6 +47,7 @@ struct simulation_parameters {
         damping.validate("damping");
         for (std::size_t w = 0; w < walls.size(); ++w) walls[w].validate("walls[" + std::to_string(w) + "]");
         flow.validate("flow");
+        remeshing.validate("remeshing");
         require_not_negative("time_step", time_step);
         require_positive("safety", safety);
         require_finite("start_time", start_time);

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <utility>
+
+#include <lacuna/pores/carry_fluid.hpp>
+#include <lacuna/pores/remesh.hpp>
+#include <lacuna/pores/tractions.hpp>
+
+namespace lacuna {
+
+/// Makes the pores of a simulation anew where their mesh does not fit the particles any more.
+/// \tparam Flow the flow solver
+template <class Flow, class Real, int Dim>
+class remesher {
+public:
+    using network_type = pore_network<Real, Dim>;
+
+    /// Keeps a copy of what made the first network; with remesh_rule::never it keeps nothing, and remesh() does nothing.
+    template <class Make, class Pairs>
+    void start(remesh_parameters const& parameters, Make const& make, Real thickness, Flow const& flow,
+               points_view<Real, Dim> points, Real const* radii, Pairs const& pairs) {
+        parameters_ = parameters;
+        thickness_ = thickness;
+        maker_.reset();
+        if (parameters.rule == remesh_rule::never) return;
+        maker_ = std::make_shared<Make const>(make);
+        make_ = [](void const* maker, points_view<Real, Dim> x, Real const* r) -> network_type {
+            return (*static_cast<Make const*>(maker))(x, r);
+        };
+        accept(flow, points, radii, pairs);
+    }
+
+    /// After step `number`: looks at the mesh when it is time to, and gives the flow solver another one where it has to.
+    /// The pressures' forces on the particles are not touched: they change with the next step of the flow.
+    /// \return whether the mesh is another; then throats are to be mapped to pairs anew
+    /// \throws what makes the network throws
+    template <class Pairs>
+    bool remesh(Flow& flow, points_view<Real, Dim> points, Real const* radii, Pairs const& pairs, long long number) {
+        if (!maker_ || (number + 1) % parameters_.interval != 0) return false;
+        auto const& p = flow.settings();
+        auto const& old = flow.network();
+        bool needed = watch_.unfit(old, points, radii, thickness_, Real(p.minimum_volume_fraction), visit(pairs, points.size()));
+        needed = needed || (parameters_.on_broken_bond && pairs.bonds().size() != bonds_);
+        if (!needed) return false;
+        auto network = make_(maker_.get(), points, radii);
+        bool const another = network.corner != old.corner;
+        if (another) {
+            keep_sizes(old, network);
+            auto fresh = Flow(p, std::move(network), thickness_, points, radii).network();
+            auto const report = carry_fluid(old, fresh, points, p.bulk_modulus, p.minimum_pressure);
+            auto ledger = flow.ledger();
+            ++ledger.remeshes;
+            ledger.remesh_energy += storage_energy(fresh, p.bulk_modulus) - flow.storage_energy();
+            ledger.remesh_volume += Real(report.volume);
+            ledger.remesh_residual = Real(report.residual);
+            ledger.remesh_content = Real(report.content);
+            ledger.boundary_inflow -= Real(report.lost);
+            flow.restore(std::move(fresh), ledger);
+        }
+        accept(flow, points, radii, pairs);
+        return another;
+    }
+
+private:
+    template <class Pairs>
+    static auto visit(Pairs const& pairs, std::size_t count) {
+        return [&pairs, count](auto const& use) {
+            auto const each = [&](auto const& table) {
+                for (std::size_t s = 0; s < table.slots(); ++s)
+                    if (!table.is_filler(s, count)) use(table.i(s), table.j(s));
+            };
+            each(pairs.bonds());
+            each(pairs.contacts());
+        };
+    }
+    template <class Pairs>
+    void accept(Flow const& flow, points_view<Real, Dim> points, Real const* radii, Pairs const& pairs) {
+        bonds_ = pairs.bonds().size();
+        watch_.accept(flow.network(), points, radii, thickness_, Real(flow.settings().minimum_volume_fraction),
+                      visit(pairs, points.size()));
+    }
+
+    remesh_parameters parameters_{};
+    std::shared_ptr<void const> maker_;
+    network_type (*make_)(void const*, points_view<Real, Dim>, Real const*) = nullptr;
+    mesh_watch<Real> watch_;
+    Real thickness_ = Real(1);
+    std::size_t bonds_ = 0;
+};
+
+} // namespace lacuna
