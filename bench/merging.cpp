@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What merging pores saves and what it costs. In a sealed, disturbed packing of discs fluid flows from one end to the other
-// until the pressure's half wave has lost three tenths of its height. The pores that a throat above the threshold joins are one; thresholds are
-// quantiles of the throats' conductances. Against the same packing without merging, at half its critical step: the
-// pressures at the end, and the steps and the time (of the processor) that each takes at 0.9 of its own critical step.
+// What merging pores saves and what it costs. In a sealed, disturbed packing of discs fluid flows from one end to the
+// other until the pressure's half wave has lost three tenths of its height. The pores that a throat above the threshold
+// joins are one; thresholds are quantiles of the throats' conductances. Against the same packing without merging, at
+// half its critical step: the pressures at the end, and the steps and the time (of the processor) that each takes at
+// 0.9 of its own critical step.
 //   bench_merging
 // Exit status 1 when the fluid's mass is off by more than 1e-12 of what flowed, step by step.
 
@@ -122,8 +123,8 @@ int main() {
         }
         auto const& clusters = flow.clusters();
         std::printf("%9.1f%% %10.3g %8zu %9zu %10.2f %10ld %10.3f %10.2e %10.2e\n", 100 * share, threshold,
-                    net.pores() - clusters.members().size() + clusters.clusters(), clusters.clusters(), own / step, steps,
-                    seconds / first_time, most, std::sqrt(sum / volume));
+                    net.pores() - clusters.members().size() + clusters.clusters(), clusters.clusters(), own / step,
+                    steps, seconds / first_time, most, std::sqrt(sum / volume));
     }
     std::printf("time: over that of the first row; errors: over the half wave's first height\n");
     if (!sound) std::fprintf(stderr, "bench_merging: the fluid's mass does not add up\n");

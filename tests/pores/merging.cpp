@@ -107,7 +107,8 @@ TEST_CASE("two pores that join take the mean of their pressures, weighted with t
 }
 
 TEST_CASE("two merged pores empty into a reservoir like one of their volume") {
-    // p = r + (p_0 - r) (1 - K_f C dt / V)^n for the volume of both, to rounding; and the step may be as long as V allows.
+    // p = r + (p_0 - r) (1 - K_f C dt / V)^n for the volume of both, to rounding; and the step may be as long as V
+    // allows.
     double const c = 0.01, r = 0.4;
     auto flow = line({0.5, 2.0}, {10.0}, 5.0, c, r);
     REQUIRE_THAT(flow.critical_time_step(), WithinRel(2.5 / (1000 * c), 1e-12));
@@ -192,7 +193,8 @@ TEST_CASE("a body that moves: clusters join and part, mass and energy are kept, 
             double const dt = 1e-4;
             for (int n = 0; n < 60; ++n) {
                 for (std::size_t i = 0; i < b.x.size(); ++i)
-                    b.x[i] = rest[i] + point{std::sin(0.3 * n + 0.3 * double(i)), std::cos(0.2 * n + 0.7 * double(i))} * 0.1;
+                    b.x[i] =
+                        rest[i] + point{std::sin(0.3 * n + 0.3 * double(i)), std::cos(0.2 * n + 0.7 * double(i))} * 0.1;
                 auto const old = flow.network();
                 auto const totals = flow.ledger();
                 double const energy = flow.storage_energy();
@@ -222,9 +224,9 @@ TEST_CASE("a body that moves: clusters join and part, mass and energy are kept, 
                 // Over substeps the pressures pass through means of the volumes, which are not seen here.
                 if (substeps == 1) REQUIRE_THAT(balance - inflow, WithinAbs(0, 1e-12 * gross));
                 REQUIRE_THAT(l.mass_residual, WithinAbs(0, 1e-12 * l.gross_volume));
-                double const gained = (l.reservoir_work - totals.reservoir_work) - (l.dissipation - totals.dissipation) -
-                                      (l.pressure_work - totals.pressure_work) + (l.vapour_work - totals.vapour_work) +
-                                      (l.prefactor_work - totals.prefactor_work);
+                double const gained = (l.reservoir_work - totals.reservoir_work) -
+                                      (l.dissipation - totals.dissipation) - (l.pressure_work - totals.pressure_work) +
+                                      (l.vapour_work - totals.vapour_work) + (l.prefactor_work - totals.prefactor_work);
                 REQUIRE_THAT(flow.storage_energy() - energy, WithinAbs(gained, 1e-12 * (1 + energy)));
                 for (std::size_t k = 0; k < net.pores(); ++k)
                     REQUIRE(net.pressure[k] == net.pressure[flow.clusters().label(k)]);
@@ -301,8 +303,8 @@ TEST_CASE("implicit flow: merged pores are one, and follow the explicit clusters
     auto const points = view_points(b.x);
     double last = infinity;
     for (int const steps : {20, 200}) {
-        implicit_solver other(q, make_pore_network(triangulate_body(points, b.r.data()), points, b.r.data()), 1.0, points,
-                              b.r.data());
+        implicit_solver other(q, make_pore_network(triangulate_body(points, b.r.data()), points, b.r.data()), 1.0,
+                              points, b.r.data());
         solver sealed(p, make_pore_network(triangulate_body(points, b.r.data()), points, b.r.data()), 1.0, points,
                       b.r.data());
         for (std::size_t k = 0; k < other.network().pores(); ++k) {

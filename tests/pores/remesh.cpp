@@ -136,7 +136,8 @@ TEST_CASE("two triangulations of one cloud: areas, content, bits of what stays, 
                 for (std::size_t c = 0; c < 3; ++c) x[c] = b.x[std::size_t(net.corner[c][p])];
                 return x;
             };
-            for (std::size_t p = 0; p < from.pores(); ++p) covered += detail::common_area(corner(from, p), corner(to, q));
+            for (std::size_t p = 0; p < from.pores(); ++p)
+                covered += detail::common_area(corner(from, p), corner(to, q));
             REQUIRE_THAT(covered, WithinRel(to.size[q], 1e-11));
         }
         REQUIRE(same == report.kept);
@@ -221,8 +222,9 @@ TEST_CASE("solvers go on from a carried network") {
         for (std::size_t p = 0; p < flow.network().pores(); ++p) flow.set_pressure(p, uniform(engine));
         auto weights = b.r;
         for (auto& w : weights) w *= 0.8 + 0.4 * uniform(engine);
-        auto fresh = type(flow.settings(), make_pore_network(regular_triangulation(b.points(), weights.data()), b.points(),
-                                                             b.r.data()), 1.0, b.points(), b.r.data())
+        auto fresh = type(flow.settings(),
+                          make_pore_network(regular_triangulation(b.points(), weights.data()), b.points(), b.r.data()),
+                          1.0, b.points(), b.r.data())
                          .network();
         carry_fluid(flow.network(), fresh, b.points(), modulus, -infinity);
         double const before = content(fresh);

@@ -316,7 +316,8 @@ TEST_CASE("dense packings in space, each sphere laid against three: every contac
                         point const u = p.x[j] - p.x[i], v = p.x[k] - p.x[i], n = cross(u, v);
                         double const nn = squared_norm(n);
                         if (nn < 1e-9) continue;
-                        double const e = (squared_norm(u) + a * a - b * b) / 2, f = (squared_norm(v) + a * a - c * c) / 2;
+                        double const e = (squared_norm(u) + a * a - b * b) / 2,
+                                     f = (squared_norm(v) + a * a - c * c) / 2;
                         point const flat = (cross(v, n) * e + cross(n, u) * f) / nn;
                         double const height = a * a - squared_norm(flat);
                         if (height <= 0) continue;

@@ -126,7 +126,8 @@ void carry_throats(pore_network<Real, 2> const& from, pore_network<Real, 2>& to)
             now.rate = old.rate;
             if (now.value == old.value) continue;
             now.value = old.value;
-            for (std::size_t t = to.interior_throats; now.kind == flow_source_kind::pressure && t < to.open_throats(); ++t)
+            for (std::size_t t = to.interior_throats; now.kind == flow_source_kind::pressure && t < to.open_throats();
+                 ++t)
                 if (to.throat_source[t] == std::int32_t(s)) to.reservoir_pressure[t] = Real(now.value);
         }
 }
@@ -149,9 +150,9 @@ void keep_sizes(pore_network<Real, 2> const& from, pore_network<Real, 2>& to) {
 /// A pore of both meshes keeps its volumes, its pressure and its vapour, to the bit. The other pores fall into regions:
 /// old and new ones that overlap. In a region a new pore takes the mean of the old pressures, weighted with the areas
 /// that it covers; then all of them are shifted by the same pressure, such that the region's content is what it was. So
-/// a uniform pressure stays uniform where the volume of the region is the same. At the boundary of the body a region may
-/// gain or lose area: its content stays. A region without new pores gives its content to the pores next to it; a new
-/// pore where none was starts at zero pressure.
+/// a uniform pressure stays uniform where the volume of the region is the same. At the boundary of the body a region
+/// may gain or lose area: its content stays. A region without new pores gives its content to the pores next to it; a
+/// new pore where none was starts at zero pressure.
 ///
 /// \param to network of the new mesh, with volumes, apertures and conductances; gets the fluid, and the flows of the
 ///        throats that it has in common with `from`, and what sources of the same name prescribe and have brought
@@ -224,7 +225,8 @@ carried_fluid carry_fluid(pore_network<Real, 2> const& from, pore_network<Real, 
                 auto const entry = from.pore_throats.entry[std::size_t(e)];
                 auto const other = from.throat_pore[std::size_t(1 - entry % 2)][std::size_t(entry / 2)];
                 if (other < 0) continue;
-                auto const next = heir[std::size_t(other)] == none ? std::size_t(other) : offset + heir[std::size_t(other)];
+                auto const next =
+                    heir[std::size_t(other)] == none ? std::size_t(other) : offset + heir[std::size_t(other)];
                 if (find_root(up, next) == find_root(up, p.pore)) continue;
                 unite(up, p.pore, next);
                 moved = true;

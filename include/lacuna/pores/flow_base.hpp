@@ -261,7 +261,8 @@ private:
             parameters_.require_pressure("initial pressure of pore " + std::to_string(k), double(network_.pressure[k]));
         }
         for (auto const& source : network_.sources)
-            if (source.kind == flow_source_kind::pressure) parameters_.require_pressure("flow source " + source.name, source.value);
+            if (source.kind == flow_source_kind::pressure)
+                parameters_.require_pressure("flow source " + source.name, source.value);
         if (!network_.bare()) {
             Real const aperture = aperture_type::aperture(p.aperture, Real(0), Real(0));
             std::fill(network_.aperture.begin(), network_.aperture.end(), aperture);

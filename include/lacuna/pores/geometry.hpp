@@ -211,8 +211,8 @@ T solid_angle(vec<T, 3> const& corner, vec<T, 3> const& one, vec<T, 3> const& tw
     return T(value_t<T>(2)) * detail::upper_angle(abs(dot(u, cross(v, w))), below);
 }
 
-/// Volume of the tetrahedron less the four spherical sectors r^3 Omega / 3 in it; negative where the spheres overlap too
-/// much to leave a void, and for a tetrahedron that has turned over. m^3. Not a number where two centres coincide.
+/// Volume of the tetrahedron less the four spherical sectors r^3 Omega / 3 in it; negative where the spheres overlap
+/// too much to leave a void, and for a tetrahedron that has turned over. m^3. Not a number where two centres coincide.
 template <class T>
 T void_volume(vec<T, 3> const& a, vec<T, 3> const& b, vec<T, 3> const& c, vec<T, 3> const& d, T const& ra, T const& rb,
               T const& rc, T const& rd) noexcept {

@@ -12,14 +12,14 @@
 
 namespace lacuna {
 
-/// Pores that have become one (the paper's Fig. 5b): those joined by throats whose conductance exceeds a threshold. They
-/// are a cluster with one pressure and the sum of the volumes, and flow within it needs no time step.
+/// Pores that have become one (the paper's Fig. 5b): those joined by throats whose conductance exceeds a threshold.
+/// They are a cluster with one pressure and the sum of the volumes, and flow within it needs no time step.
 ///
 /// Each pore of a cluster is advanced by itself, as if the throats within the cluster were shut; then they all take the
 /// mean of their pressures, weighted with their volumes, which is eq. 15 of the cluster as a whole. The same mean is
 /// taken when pores join: no fluid is made or lost, and the energy that it costs is booked as dissipation. Pores that
-/// part keep the pressure. Clusters are formed anew at the beginning of each step in which a conductance has crossed the
-/// threshold since the last. Throats to reservoirs and pores that a flow_source acts on do not merge.
+/// part keep the pressure. Clusters are formed anew at the beginning of each step in which a conductance has crossed
+/// the threshold since the last. Throats to reservoirs and pores that a flow_source acts on do not merge.
 ///
 /// Not in parallel: the same bits for any number of threads. Allocates no memory after build().
 template <class Real>
@@ -100,8 +100,10 @@ public:
                     auto const& old = before_[k];
                     Real const volume = net.old_volume[p];
                     // As net holds the pore after the pass; pressure and vapour are those after mixing.
-                    Real const passed = (old.pressure + net.pressure[p]) * half, mixed = (old.pressure + pressure) * half;
-                    sums.content += volume * (pressure - net.pressure[p]) / fluid.bulk_modulus - (vapour - net.vapour[p]);
+                    Real const passed = (old.pressure + net.pressure[p]) * half,
+                               mixed = (old.pressure + pressure) * half;
+                    sums.content +=
+                        volume * (pressure - net.pressure[p]) / fluid.bulk_modulus - (vapour - net.vapour[p]);
                     sums.pressure_work += (mixed - passed) * (volume - old.volume);
                     sums.vapour_work += mixed * (vapour - old.vapour) - passed * (net.vapour[p] - old.vapour);
                 }

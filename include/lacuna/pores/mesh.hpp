@@ -71,7 +71,8 @@ bool sort_corners(std::array<std::int32_t, Count>& corners) noexcept {
 /// The corners of a simplex but one, such that they see the simplex on their left (in space: turn counter-clockwise as
 /// seen from outside).
 template <std::size_t Count>
-std::array<std::int32_t, Count - 1> side_of(std::array<std::int32_t, Count> const& simplex, std::size_t corner) noexcept {
+std::array<std::int32_t, Count - 1> side_of(std::array<std::int32_t, Count> const& simplex,
+                                            std::size_t corner) noexcept {
     std::array<std::int32_t, Count - 1> side;
     for (std::size_t c = 0; c + 1 < Count; ++c) side[c] = simplex[c < corner ? c : c + 1];
     if (corner % 2 == 1) std::swap(side[Count - 3], side[Count - 2]);
@@ -94,7 +95,9 @@ void connect(pore_mesh<Dim>& mesh) {
         bool odd;
         std::int32_t simplex, corner;
         bool operator<(side const& o) const noexcept {
-            return particles != o.particles ? particles < o.particles : odd != o.odd ? odd < o.odd : simplex < o.simplex;
+            return particles != o.particles ? particles < o.particles
+                   : odd != o.odd           ? odd < o.odd
+                                            : simplex < o.simplex;
         }
     };
     std::vector<side> sides;

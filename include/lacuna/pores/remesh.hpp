@@ -36,8 +36,8 @@ struct remesh_parameters {
 ///   - a triangle has turned over, or has no area left;
 ///   - the discs of a triangle have come to fill it (its pore is at its least volume);
 ///   - two discs of the mesh touch that share no edge.
-/// The second and third may be there in a fresh mesh too (three discs may fill their triangle, a third disc may lie over
-/// a contact, the boundary of the body is not convex): what a fresh mesh has does not count until it has gone.
+/// The second and third may be there in a fresh mesh too (three discs may fill their triangle, a third disc may lie
+/// over a contact, the boundary of the body is not convex): what a fresh mesh has does not count until it has gone.
 template <class Real>
 class mesh_watch {
 public:

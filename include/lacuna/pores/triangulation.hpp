@@ -84,8 +84,8 @@ pore_mesh<Dim> lower_hull(scaled_particles<Dim> const& all) {
     std::vector<coordT> lifted((dim + 1) * (count + 1));
     scaled_point<Dim> middle{};
     double top = -1e300;
-    // In space Qhull cuts up more than four points on one sphere in a way that leaves flat tetrahedra between the others.
-    // Heights in general position have no such points.
+    // In space Qhull cuts up more than four points on one sphere in a way that leaves flat tetrahedra between the
+    // others. Heights in general position have no such points.
     double const nudge = Dim == 3 ? 1e-7 * std::pow(double(count), -2.0 / 3.0) : 0.0;
     for (std::size_t k = 0; k < count; ++k) {
         coordT* const to = lifted.data() + (dim + 1) * k;
@@ -195,15 +195,16 @@ std::array<double, 2> filled_size(pore_mesh<Dim> const& mesh, scaled_particles<D
 } // namespace detail
 
 /// Regular (radius-weighted Delaunay) triangulation of discs or spheres: the lower hull of (x, |x|^2 - r^2). It covers
-/// the convex hull of the centres; two particles that touch share an edge, unless a third overlaps them where they meet.
+/// the convex hull of the centres; two particles that touch share an edge, unless a third overlaps them where they
+/// meet.
 ///
 /// A particle that is overlapped so much that its power cell is empty is a corner of no simplex; of particles at one
-/// place (up to 1e-10 of the extent) only the largest is. Fewer than Dim + 1 particles, or particles on a line (in space:
-/// in a plane; up to 1e-9 of their extent), give an empty mesh. Where more than Dim + 1 lie on one circle or sphere, a
-/// rule that looks at the particles' places alone decides on the diagonals: in the plane Qhull's, in space heights
-/// shifted by up to 1e-7 N^(-2/3) of the squared extent, N the number of particles; simplices then stay clear of the
-/// other particles up to that much. (In space nearly flat tetrahedra within the body belong to a regular triangulation;
-/// they are pores of hardly any volume.) Thread-safe.
+/// place (up to 1e-10 of the extent) only the largest is. Fewer than Dim + 1 particles, or particles on a line (in
+/// space: in a plane; up to 1e-9 of their extent), give an empty mesh. Where more than Dim + 1 lie on one circle or
+/// sphere, a rule that looks at the particles' places alone decides on the diagonals: in the plane Qhull's, in space
+/// heights shifted by up to 1e-7 N^(-2/3) of the squared extent, N the number of particles; simplices then stay clear
+/// of the other particles up to that much. (In space nearly flat tetrahedra within the body belong to a regular
+/// triangulation; they are pores of hardly any volume.) Thread-safe.
 ///
 /// \param points centres, m
 /// \param radii one per point, m, >= 0

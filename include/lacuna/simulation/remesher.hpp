@@ -19,7 +19,8 @@ class remesher {
 public:
     using network_type = pore_network<Real, Dim>;
 
-    /// Keeps a copy of what made the first network; with remesh_rule::never it keeps nothing, and remesh() does nothing.
+    /// Keeps a copy of what made the first network; with remesh_rule::never it keeps nothing, and remesh() does
+    /// nothing.
     template <class Make, class Pairs>
     void start(remesh_parameters const& parameters, Make const& make, Real thickness, Flow const& flow,
                points_view<Real, Dim> points, Real const* radii, Pairs const& pairs) {
@@ -34,8 +35,8 @@ public:
         accept(flow, points, radii, pairs);
     }
 
-    /// After step `number`: looks at the mesh when it is time to, and gives the flow solver another one where it has to.
-    /// The pressures' forces on the particles are not touched: they change with the next step of the flow.
+    /// After step `number`: looks at the mesh when it is time to, and gives the flow solver another one where it has
+    /// to. The pressures' forces on the particles are not touched: they change with the next step of the flow.
     /// \return whether the mesh is another; then throats are to be mapped to pairs anew
     /// \throws what makes the network throws
     template <class Pairs>
@@ -43,7 +44,8 @@ public:
         if (!maker_ || (number + 1) % parameters_.interval != 0) return false;
         auto const& p = flow.settings();
         auto const& old = flow.network();
-        bool needed = watch_.unfit(old, points, radii, thickness_, Real(p.minimum_volume_fraction), visit(pairs, points.size()));
+        bool needed =
+            watch_.unfit(old, points, radii, thickness_, Real(p.minimum_volume_fraction), visit(pairs, points.size()));
         needed = needed || (parameters_.on_broken_bond && pairs.bonds().size() != bonds_);
         if (!needed) return false;
         auto network = make_(maker_.get(), points, radii);
