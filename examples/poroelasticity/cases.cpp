@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cases.hpp"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "cryer.hpp"
+#include "darcy.hpp"
+#include "mandel.hpp"
+#include "terzaghi.hpp"
+
+namespace poroelasticity {
+
+namespace {
+
+std::string text(char const* format, double value) {
+    char buffer[80];
+    std::snprintf(buffer, sizeof buffer, format, value);
+    return buffer;
+}
+
+void add_mass(outcome& o, fluid_account const& fluid) { o.add("mass_balance_error", fluid.error(), 0); }
+
+template <class Simulation>
+void add_size(outcome& o, Simulation const& sim) {
+    o.particles = sim.size();
+    o.pores = sim.flow().network().pores();
+    o.steps = sim.steps();
+}
+
+/// Error of the whole curve: the largest of its points' relative ones.
+void add_worst(outcome& o, std::string const& name, outcome_curve const& c) {
+    outcome_curve::point worst = c.points.front();
+    auto const error = [](outcome_curve::point const& p) { return std::fabs(p.value / p.reference - 1); };
+    for (auto const& p : c.points)
+        if (error(p) > error(worst)) worst = p;
+    o.add(name, worst.value, worst.reference);
+}
+
+} // namespace
+
+outcome run_terzaghi(bool quick) {
+    terzaghi_setup setup;
+    setup.layers = quick ? 20 : 40;
+    setup.cells = quick ? 1 : 3;
+    setup.slowness = quick ? 400 : 800;
+    terzaghi_column column(setup);
+    consolidation const exact(consolidation::body::slab, 0);
+    fluid_account fluid(column.sim().flow().network(), setup.medium.bulk_modulus);
+
+    outcome o;
+    o.name = "terzaghi";
+    o.title = "Terzaghi: column of " + std::to_string(setup.layers) + " layers of pores, drained at its top";
+    o.x_label = "T = c t / H²";
+    outcome_curve settlement{"degree of consolidation U", {}}, base{"pressure at the base / load", {}};
+    for (double const time : logarithmic_times(0.01, 1, 41)) {
+        while (column.time() < time * (1 - 1e-9)) {
+            column.sim().step();
+            fluid.enter(column.sim().flow().network(), column.sim().time_step());
+        }
+        double const now = column.time(), u = column.consolidation_degree();
+        settlement.points.push_back({now, u, 1 - exact.mean(now)});
+        base.points.push_back({now, layer_pressure(column.sim(), column.body(), 0) / column.load(),
+                               exact.pressure(0, now)});
+        for (double const named : {0.01, 0.1, 1.0})
+            if (std::fabs(time - named) < 1e-9 * named)
+                o.add("U(T=" + text("%g", named) + ")", u, settlement.points.back().reference);
+        if (o.field.pores.empty() && time > 0.19)
+            o.field = field_of(column.sim(), setup.medium.radius / 2, text("T = %.2f", now));
+    }
+    add_worst(o, "U_worst", settlement);
+    add_worst(o, "base_pressure_worst", base);
+    add_mass(o, fluid);
+    o.curves = {settlement, base};
+    add_size(o, column.sim());
+    return o;
+}
+
+outcome run_mandel(bool quick) {
+    mandel_setup setup;
+    setup.half_layers = quick ? 12 : 24;
+    setup.cells = quick ? 1 : 6;
+    mandel_slab slab(setup);
+    auto const& medium = slab.medium();
+    consolidation const exact(consolidation::body::slab, medium.mean_coupling(), setup.ramp);
+    fluid_account fluid(slab.sim().flow().network(), setup.medium.bulk_modulus);
+
+    outcome o;
+    o.name = "mandel";
+    o.title = "Mandel: slab between rigid plates, drained at both sides, Poisson's ratio " +
+              text("%g", medium.poisson());
+    o.x_label = "T = c t / L²";
+    outcome_curve middle{"pressure in the middle / undrained pressure", {}};
+    double highest = 0, when = 0;
+    for (double const time : logarithmic_times(0.02, quick ? 0.2 : 0.3, 33)) {
+        while (slab.time() < time * (1 - 1e-9)) {
+            slab.step();
+            fluid.enter(slab.sim().flow().network(), slab.sim().time_step());
+            if (slab.sim().steps() % 20 != 0 || slab.time() < 0.02) continue;
+            double const p = slab.middle_pressure();
+            if (p > highest) {
+                highest = p;
+                when = slab.time();
+                o.field = field_of(slab.sim(), setup.medium.radius / 2, text("T = %.3f: the peak", when));
+            }
+        }
+        middle.points.push_back({slab.time(), slab.middle_pressure(), exact.pressure(0, slab.time())});
+    }
+    o.add("peak_pressure", highest, exact.peak().pressure);
+    o.add("peak_time", when, exact.peak().time);
+    add_worst(o, "middle_pressure_worst", middle);
+    add_mass(o, fluid);
+    o.curves = {middle};
+    add_size(o, slab.sim());
+    return o;
+}
+
+outcome run_cryer(bool quick) {
+    cryer_setup setup;
+    setup.radius = quick ? 8 : 20;
+    setup.medium.shear_stiffness = setup.medium.normal_stiffness;
+    cryer_disc disc(setup);
+    auto const& medium = disc.medium();
+    consolidation const exact(consolidation::body::disc, medium.mean_coupling(), 0, 60);
+    fluid_account fluid(disc.sim().flow().network(), setup.medium.bulk_modulus);
+
+    outcome o;
+    o.name = "cryer";
+    o.title = "Cryer: disc under pressure all around, drained at its rim, Poisson's ratio " +
+              text("%g", std::fabs(medium.poisson()) < 1e-12 ? 0.0 : medium.poisson());
+    o.x_label = "T = c t / R²";
+    outcome_curve middle{"pressure in the middle / load", {}};
+    double highest = 0, when = 0;
+    for (double const time : logarithmic_times(0.005, quick ? 0.1 : 0.3, 34)) {
+        while (disc.time() < time * (1 - 1e-9)) {
+            disc.sim().step();
+            fluid.enter(disc.sim().flow().network(), disc.sim().time_step());
+            double const p = disc.middle_pressure();
+            if (p <= highest) continue;
+            highest = p;
+            when = disc.time();
+        }
+        middle.points.push_back({disc.time(), disc.middle_pressure(), exact.pressure(0, disc.time())});
+        if (disc.time() < 0.07) o.field = field_of(disc.sim(), 0, text("T = %.3f", disc.time()));
+    }
+    o.add("peak_pressure", highest, exact.peak().pressure);
+    o.add("peak_time", when, exact.peak().time);
+    add_worst(o, "middle_pressure_worst", middle);
+    add_mass(o, fluid);
+    o.curves = {middle};
+    add_size(o, disc.sim());
+    return o;
+}
+
+outcome run_darcy(bool quick) {
+    outcome o;
+    o.name = "darcy";
+    o.x_label = "x / length";
+    o.logarithmic = false;
+
+    lattice_medium const medium;
+    lattice_flow lattice(quick ? 8 : 16, 2, medium, 1e3);
+    do {
+        lattice.sim().step();
+    } while (!(std::fabs(lattice.permeability(0) / lattice.permeability(1) - 1) < 1e-10));
+    o.add("permeability_lattice/C", lattice.permeability(1) / medium.conductance,
+          medium.permeability() / medium.conductance);
+
+    darcy_setup setup;
+    if (quick) setup.length = 12, setup.height = 10;
+    darcy_body body(setup);
+    o.title = "Darcy: steady flow from left to right through a random packing of bonded discs";
+    fluid_account fluid(body.sim().flow().network(), setup.medium.bulk_modulus);
+    do {
+        body.sim().step();
+        fluid.enter(body.sim().flow().network(), body.sim().time_step());
+    } while (!(std::fabs(body.outflow() / body.inflow() - 1) < 1e-10) && body.sim().steps() < 2000);
+    auto const steady = body.solve();
+    o.add("permeability_random", body.permeability(body.inflow()), body.permeability(steady.flow));
+    o.add("outflow/inflow", body.outflow() / body.inflow(), 1);
+
+    auto const& net = body.sim().flow().network();
+    outcome_curve profile{"mean pressure across the flow / pressure on the left", {}};
+    int const slices = quick ? 8 : 20;
+    std::vector<outcome_curve::point> sum(std::size_t(slices), {0, 0, 0});
+    std::vector<double> area(std::size_t(slices), 0.0);
+    double farthest = 0, left = body.packing().position.front()[0];
+    for (auto const& x : body.packing().position) left = std::min(left, x[0]);
+    for (std::size_t k = 0; k < net.pores(); ++k) {
+        double const along = (pore_middle(net, k, body.sim().particles().positions())[0] - left) / body.extent(0);
+        auto const slice = std::size_t(std::clamp(int(along * slices), 0, slices - 1));
+        area[slice] += net.size[k];
+        sum[slice].x += net.size[k] * along;
+        sum[slice].value += net.size[k] * net.pressure[k] / setup.pressure;
+        sum[slice].reference += net.size[k] * steady.pressure[k] / setup.pressure;
+        farthest = std::max(farthest, std::fabs(net.pressure[k] - steady.pressure[k]) / setup.pressure);
+    }
+    for (std::size_t s = 0; s < sum.size(); ++s)
+        profile.points.push_back({sum[s].x / area[s], sum[s].value / area[s], sum[s].reference / area[s]});
+    o.add("largest_pressure_error/pressure", farthest, 0);
+    add_mass(o, fluid);
+    o.curves = {profile};
+    o.field = field_of(body.sim(), 0, "steady state");
+    add_size(o, body.sim());
+    return o;
+}
+
+} // namespace poroelasticity

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <system_error>
+
+#include <CLI/CLI.hpp>
+
+#include "cases.hpp"
+#include "output.hpp"
+
+namespace {
+
+enum exit_status { done = 0, failed = 1, bad_request = 2 };
+
+/// A request that cannot be met; the message is one line.
+class usage_error : public std::runtime_error {
+public:
+    using std::runtime_error::runtime_error;
+};
+
+struct request {
+    std::string name, out = ".";
+    bool quick = false, json = false;
+    poroelasticity::outcome (*run)(bool quick) = nullptr;
+};
+
+/// \return nothing to run when only help was asked for \throws usage_error
+request understand(int argc, char const* const* argv) {
+    request r;
+    CLI::App app("Poroelasticity of a bonded packing of discs with fluid in its pores, beside the closed forms.\n"
+                 "Writes CASE.csv and CASE.png. Exit status: 0 done, 1 failed, 2 bad request.",
+                 "poroelasticity");
+    app.failure_message(CLI::FailureMessage::simple);
+    app.add_option("--case", r.name, "terzaghi, mandel, cryer or darcy")->required()->type_name("CASE");
+    app.add_option("--out", r.out, "directory for the files (.)")->type_name("DIR");
+    app.add_flag("--json", r.json, "rows of quantity, value, reference, relative_error as JSON on stdout");
+    app.add_flag("--quick", r.quick, "a coarse body and a short run");
+    try {
+        app.parse(argc, argv);
+    } catch (CLI::Success const& wish) {
+        app.exit(wish);
+        return r;
+    } catch (CLI::ParseError const& bad) {
+        std::string line = bad.what();
+        for (char& c : line)
+            if (c == '\n') c = ' ';
+        throw usage_error(line);
+    }
+    if (r.name == "terzaghi") r.run = poroelasticity::run_terzaghi;
+    if (r.name == "mandel") r.run = poroelasticity::run_mandel;
+    if (r.name == "cryer") r.run = poroelasticity::run_cryer;
+    if (r.name == "darcy") r.run = poroelasticity::run_darcy;
+    if (!r.run)
+        throw usage_error("--case " + (r.name.empty() ? "''" : r.name) + ": must be terzaghi, mandel, cryer or darcy");
+    std::error_code error;
+    std::filesystem::create_directories(r.out, error);
+    if (!std::filesystem::is_directory(r.out, error))
+        throw usage_error("--out " + (r.out.empty() ? "''" : r.out) + ": must be a directory, or one that can be made");
+    return r;
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    try {
+        request const r = understand(argc, argv);
+        if (!r.run) return done;
+        auto const outcome = r.run(r.quick);
+        poroelasticity::write_files(r.out, outcome);
+        if (r.json)
+            std::fputs(poroelasticity::to_json(outcome).c_str(), stdout);
+        else
+            poroelasticity::print_rows(stdout, outcome);
+        return done;
+    } catch (usage_error const& bad) {
+        std::fprintf(stderr, "poroelasticity: %s\n", bad.what());
+        return bad_request;
+    } catch (std::exception const& bad) {
+        std::fprintf(stderr, "poroelasticity: %s\n", bad.what());
+        return failed;
+    }
+}

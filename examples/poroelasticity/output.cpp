@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "output.hpp"
+
+#include <cmath>
+
+#include <lacuna/core/error.hpp>
+#include <lacuna/observe/canvas_file.hpp>
+
+#include "picture.hpp"
+
+namespace poroelasticity {
+
+namespace {
+
+std::string number(double v) { return std::isfinite(v) ? lacuna::to_text(v) : "null"; }
+
+std::string csv_of(outcome const& o) {
+    std::string text = "curve,x,value,reference\n";
+    for (auto const& curve : o.curves)
+        for (auto const& p : curve.points)
+            text += curve.name + "," + number(p.x) + "," + number(p.value) + "," + number(p.reference) + "\n";
+    return text;
+}
+
+} // namespace
+
+std::string to_json(outcome const& o) {
+    std::string text = "{\n  \"case\": \"" + o.name + "\",\n  \"particles\": " + std::to_string(o.particles) +
+                       ",\n  \"pores\": " + std::to_string(o.pores) + ",\n  \"steps\": " + std::to_string(o.steps) +
+                       ",\n  \"rows\": [";
+    char const* separator = "\n";
+    for (auto const& row : o.rows) {
+        text += separator + ("    {\"quantity\": \"" + row.quantity) + "\", \"value\": " + number(row.value) +
+                ", \"reference\": " + number(row.reference) + ", \"relative_error\": " + number(row.error()) + "}";
+        separator = ",\n";
+    }
+    return text + "\n  ]\n}\n";
+}
+
+void print_rows(std::FILE* out, outcome const& o) {
+    std::fprintf(out, "%s\n%zu particles, %zu pores, %lld steps\n", o.title.c_str(), o.particles, o.pores, o.steps);
+    std::fprintf(out, "  %-32s %14s %14s %10s\n", "quantity", "value", "reference", "error");
+    for (auto const& row : o.rows)
+        std::fprintf(out, "  %-32s %14.8g %14.8g %10.2g\n", row.quantity.c_str(), row.value, row.reference,
+                     row.error());
+}
+
+void write_files(std::filesystem::path const& directory, outcome const& o) {
+    lacuna::whole_file csv((directory / (o.name + ".csv")).string());
+    csv.write(csv_of(o));
+    save_picture((directory / (o.name + ".png")).string(), o);
+    csv.commit();
+}
+
+} // namespace poroelasticity
