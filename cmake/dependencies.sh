@@ -8,11 +8,11 @@ set -eu
 case "${1:-}" in
 demo)
     wanted="g++ make cmake libeigen3-dev libnanoflann-dev libqhull-dev libcairo2-dev libspectra-dev libcli11-dev
-        nlohmann-json3-dev"
+        nlohmann-json3-dev libcereal-dev"
     ;;
 check)
     wanted="g++ make cmake libeigen3-dev libnanoflann-dev libqhull-dev libcairo2-dev libspectra-dev libcli11-dev
-        nlohmann-json3-dev catch2 libbenchmark-dev"
+        nlohmann-json3-dev libcereal-dev catch2 libbenchmark-dev"
     ;;
 *)
     echo "usage: sh cmake/dependencies.sh demo|check [more Debian packages]" >&2

@@ -11,6 +11,7 @@
 
 #include <lacuna/core/parallel.hpp>
 #include <lacuna/interactions/interactions.hpp>
+#include <lacuna/interactions/interactions_archive.hpp>
 #include <lacuna/interactions/walls.hpp>
 #include <lacuna/loads/load_set.hpp>
 #include <lacuna/model.hpp>
@@ -116,14 +117,15 @@ public:
     ///         above the bound
     void step() { take_step<false>(); }
 
-    /// Advances by `steps` steps, or until an observer's on_step asks to stop.
+    /// Advances by `steps` steps, or until an observer's on_step asks to stop. A run that was stopped, or resumed from a
+    /// checkpoint, and goes on to the same last step counts as the same run: it has the same bits.
     /// \return the number of steps taken
     /// \throws as step()
     template <observer... Observers>
     long long run(long long steps, Observers&&... observers) {
         (detail::check_observer<simulation, event_type, Observers>(), ...);
         constexpr bool energy = (detail::needs_energy<Observers> || ...);
-        planned_steps_ = steps;
+        announce(steps);
         if (step_ == 0) time_step_.reset();
         settle_time_step();
         (detail::notify_start(observers, *this), ...);
@@ -184,9 +186,32 @@ public:
     }
     bool filled() const noexcept { return fluid_.get() != nullptr; }
 
+    /// Writes or reads all that steps and calls change; see simulation/checkpoint.hpp.
+    template <class Archive>
+    void serialize(Archive& ar) {
+        ar(store_, loads_);
+        interactions_archive::apply(ar, interactions_, store_);
+        walls_.archive(ar, store_);
+        ar(fluid_, events_, kicked_, ledger_, growth_, time_step_, moved_, step_, planned_steps_, planned_end_);
+        for (auto const& k : kicked_) require_state(k.particle < store_.size(), "a velocity given to no particle");
+        require_state(!time_step_ || (*time_step_ > 0 && std::isfinite(*time_step_)), "its time step");
+        for (auto const number : {step_, planned_steps_, planned_end_})
+            require_state(number >= 0 && number < (1LL << 62), "its number of steps");
+        if constexpr (Archive::is_loading::value) {
+            reports_.resize(std::size_t(interactions_.chunks()));
+            fluid_.map_throats(interactions_);
+        }
+    }
+
 private:
     using particle_access<real, dim>::store_;
     using particle_access<real, dim>::internal;
+
+    /// How long a run is decides on the throats that are left out.
+    void announce(long long steps) {
+        if (step_ + steps != planned_end_) planned_steps_ = steps;
+        planned_end_ = step_ + steps;
+    }
 
     template <bool WithEnergy>
     void take_step() {
@@ -242,6 +267,9 @@ private:
         } else {
             ledger_.close();
         }
+        check_energy(store_, growth_, WithEnergy ? &ledger_.ledger() : nullptr, moved_, smallest_radius_, now());
+        if constexpr (has_fluid<Model>)
+            if (changed || step_ % 64 == 63) check_pores(store_, fluid_.get()->network(), now());
         ++step_;
     }
 
@@ -348,9 +376,10 @@ private:
     std::vector<event_type> events_;
     std::vector<kick> kicked_;
     ledger_keeper<real> ledger_;
+    growth_watch<real> growth_;
     mutable std::optional<double> time_step_;
     real moved_ = 0, smallest_radius_ = 1;
-    long long step_ = 0, planned_steps_ = 0;
+    long long step_ = 0, planned_steps_ = 0, planned_end_ = 0;
     bool streams_ = true;
 };
 

@@ -17,7 +17,7 @@ set(motion_MAY core particles)
 set(observe_MAY core)
 
 # Third-party headers and the rooms that may include them.
-set(THIRD_PARTY eigen spectra nanoflann qhull cairo intrinsics programs)
+set(THIRD_PARTY eigen spectra nanoflann qhull cairo cereal intrinsics programs)
 set(eigen_HEADERS "^(unsupported/)?Eigen/")
 set(eigen_ROOMS core pores motion)
 set(spectra_HEADERS "^Spectra/")
@@ -28,6 +28,8 @@ set(qhull_HEADERS "^libqhull")
 set(qhull_ROOMS pores)
 set(cairo_HEADERS "^(cairo/)?cairo")
 set(cairo_ROOMS observe)
+set(cereal_HEADERS "^cereal/")
+set(cereal_ROOMS observe)
 set(intrinsics_HEADERS "^([a-z]+intrin|arm_neon|arm_sve)\\.h$")
 set(intrinsics_ROOMS core)
 set(programs_HEADERS "^(CLI|nlohmann|catch2|benchmark)/")
@@ -50,6 +52,8 @@ set(EXCEPTIONS
   "simulation/parameters.hpp depth"
   "simulation/limits.hpp depth"
   "simulation/fluid_coupling.hpp depth"
+  # Stands on top of simulation.hpp.
+  "simulation/checkpoint.hpp depth"
   # A specimen is random packing, which is relaxing, which is sorting into a grid.
   "particles/cartilage_specimen.hpp depth"
 )

@@ -79,6 +79,10 @@ public:
         __builtin_memcpy(&row, &value, sizeof value);
         for (std::size_t f = 0; f < fields; ++f) data_[(k / W * fields + f) * W + k % W] = row[f];
     }
+    template <class Archive>
+    void serialize(Archive& ar) {
+        ar(fixed_length{data_});
+    }
 
 private:
     std::vector<Real, aligned_allocator<Real>> data_;

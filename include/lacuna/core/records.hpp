@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <lacuna/core/pack.hpp>
+#include <lacuna/core/state.hpp>
 
 /// \file
 /// Records of four numbers: how the hot loops see a particle's place, velocity and forces.
@@ -55,6 +56,10 @@ public:
     Real at(std::size_t k, int lane) const noexcept { return data_[4 * k + std::size_t(lane)]; }
     Real* data() noexcept { return data_.data(); }
     Real const* data() const noexcept { return data_.data(); }
+    template <class Archive>
+    void serialize(Archive& ar) {
+        ar(fixed_length{data_});
+    }
 
 private:
     aligned_vector<Real> data_;

@@ -27,6 +27,17 @@ bool pair_before(Entry const& a, Entry const& b) noexcept {
     return a.i < b.i || (a.i == b.i && a.j < b.j);
 }
 
+/// Tells each bond that is intact where it stands in the table; the others stand nowhere.
+template <class Table>
+void number_bonds(std::span<bond_record> records, Table const& table, std::size_t particles) {
+    for (auto& record : records) record.slot = -1;
+    for (std::size_t s = 0; s < table.slots(); ++s) {
+        if (table.is_filler(s, particles)) continue;
+        auto& record = records[std::size_t(table.label(s))];
+        if (record.state == bond_state::intact) record.slot = std::int32_t(s);
+    }
+}
+
 /// Bonds between the given particles, made at the distances they have, in the order of the tables.
 /// \param pairs stable ids
 /// \param row callable (i, j) -> row of the parameter table

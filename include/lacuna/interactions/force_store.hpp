@@ -47,6 +47,12 @@ public:
         std::fill(zero, zero + 4 * pair_forces<Real, Dim>::records_per_pair, Real(0));
     }
 
+    /// All forces are zero until they are evaluated.
+    void forget() noexcept {
+        auto& column = forces_.column;
+        std::fill(column.data(), column.data() + 4 * column.size(), Real(0));
+    }
+
     chunk_spans const& spans() const noexcept { return spans_; }
     int chunks() const noexcept { return rows_.chunks(); }
     Real const* column() const noexcept { return forces_.of(0); }

@@ -20,6 +20,8 @@
 
 namespace lacuna {
 
+struct interactions_archive;
+
 /// Bonds and contacts: their tables, histories, forces, and the hand-over from bond to contact.
 template <class Real, int Dim, contact_law<Dim> ContactLaw, bond_law<Dim> BondLaw, damping_policy Damping,
           neighbor_search Search>
@@ -118,12 +120,12 @@ public:
     /// Failures of the step just evaluated, in the order of the pairs; to be completed with step and time.
     std::span<break_event<Dim> const> collect_events() {
         events_.clear();
-        fracture_energy_ = 0;
+        fracture_energy_ = {};
         for (auto& chunk : chunk_events_) {
             for (auto& e : chunk) {
                 events_.push_back(e.event);
                 broken_.push_back(e.contact);
-                fracture_energy_ += e.released;
+                fracture_energy_[e.event.mode == bond_state::broken_in_shear] += e.released;
                 auto& record = bond_records_[std::size_t(e.event.bond)];
                 record.state = e.event.mode;
                 record.slot = -1;
@@ -132,14 +134,16 @@ public:
         }
         return events_;
     }
-    /// Energy that the failures of the step took out of the springs, consistent with the integrator, J.
-    double fracture_energy() const noexcept { return fracture_energy_; }
+    /// Energy that the step's failures in tension, in shear took out of the springs, consistent with the integrator, J.
+    std::array<double, 2> const& fracture_energy() const noexcept { return fracture_energy_; }
 
     /// Energies of the last evaluation with energies, summed over the chunks in their order.
     pair_energy energy() const noexcept {
         pair_energy total;
-        for (auto const& chunk : energy_)
+        for (auto const& chunk : energy_) {
             for (auto const& e : chunk) total += e;
+            total.in_bonds += chunk[0].stored;
+        }
         return total;
     }
 
@@ -181,6 +185,7 @@ public:
     verlet_list<Search> const& neighbors() const noexcept { return neighbors_; }
 
 private:
+    friend struct interactions_archive; // writes and reads the state, in a header of its own
     using contact_entry = typename contact_table::entry;
     using bond_entry = typename bond_table::entry;
     using pending_event = bond_failure<contact_entry, Dim>;
@@ -209,11 +214,13 @@ private:
         }
         if (bonds_change) {
             bonds_.assign(bond_entries_, store.size(), store.ghost(0), store.ghost(1));
-            for (std::size_t s = 0; s < bonds_.slots(); ++s)
-                if (!bonds_.is_filler(s, store.size()))
-                    bond_records_[std::size_t(bonds_.label(s))].slot = std::int32_t(s);
+            number_bonds(bond_records_, bonds_, store.size());
         }
         broken_.clear();
+        build_rows(store);
+    }
+
+    void build_rows(store_type const& store) {
         forces_.build(store.size(), bonds_, contacts_);
         auto const chunks = std::size_t(forces_.chunks());
         chunk_events_.resize(chunks);
@@ -238,7 +245,7 @@ private:
                 contact_parameters_.row[std::size_t(row)], row, time_step,
                 forces_.template of<0>(chunk, s));
             if (!failed) continue;
-            energy_[std::size_t(chunk)][2].stored += failed->stored;
+            energy_[std::size_t(chunk)][2] += {failed->stored, 0, 0, -failed->event.energy};
             chunk_events_[std::size_t(chunk)].push_back(*failed);
         }
     }
@@ -270,7 +277,7 @@ private:
     std::vector<break_event<Dim>> events_;
     std::vector<std::array<pair_energy, 3>> energy_; // of bonds, of contacts, correction for bonds that failed
     std::vector<std::int32_t> deep_overlap_;
-    double fracture_energy_ = 0;
+    std::array<double, 2> fracture_energy_{};
 };
 
 } // namespace lacuna

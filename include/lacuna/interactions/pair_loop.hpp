@@ -42,11 +42,13 @@ struct pair_energy {
     double stored = 0;     ///< elastic energy now
     double dissipated = 0; ///< by sliding and crushing in this step
     double damped = 0;     ///< taken out by dashpots in this step
+    double in_bonds = 0;   ///< part of the elastic energy that is in bonds
 
     void operator+=(pair_energy const& other) noexcept {
         stored += other.stored;
         dissipated += other.dissipated;
         damped += other.damped;
+        in_bonds += other.in_bonds;
     }
 };
 
@@ -194,7 +196,7 @@ template <pair_kind Kind, bool WithEnergy, class Law, class Damping, class Real,
                 on_event(p);
         }
     }
-    if constexpr (WithEnergy) energy = {double(sum(stored)), double(sum(dissipated)), double(sum(damped))};
+    if constexpr (WithEnergy) energy = {double(sum(stored)), double(sum(dissipated)), double(sum(damped)), 0};
 }
 
 } // namespace lacuna

@@ -129,6 +129,13 @@ public:
             visit(n.particle, walls_[n.plane].normal, k.normal, k.shear, std::max(distance, 0.0));
         }
     }
+    /// Writes or reads what a run changes.
+    template <class Archive>
+    void archive(Archive& ar, particle_store<Real, Dim> const& store) {
+        ar(near_, fixed_length{force_});
+        for (auto const& n : near_)
+            require_state(n.plane < walls_.size() && n.particle < store.size(), "a wall or its particle is none");
+    }
 
 private:
     struct near_wall {

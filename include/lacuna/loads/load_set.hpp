@@ -50,6 +50,11 @@ public:
     void apply_gravity(particle_store<Real, Dim>& store) {
         for (std::size_t k = 0; k < store.size(); ++k) put(store, k, 0);
     }
+    template <class Archive>
+    void serialize(Archive& ar) {
+        ar(fixed_length{load_}, rising_);
+        for (std::size_t const k : rising_) require_state(k < load_.size(), "a load on no particle");
+    }
 
 private:
     struct one_load {

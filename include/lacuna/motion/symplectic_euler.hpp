@@ -15,8 +15,11 @@ struct motion_report {
     record<Real> fastest{Real(0)}; ///< largest |velocity| by component, m/s
     record<Real> poison{Real(0)};  ///< zero; not a number once a velocity is not finite
     double kinetic = 0;            ///< kinetic energy at the positions of the forces, J
+    double rotation = 0;           ///< of it: of spins, J
     double load_before = 0;        ///< power of loads and prescribed motion with the old velocity, W
     double load_after = 0;         ///< the same with the new velocity, W
+    double held_before = 0;        ///< of load_before: of prescribed motion, W
+    double held_after = 0;         ///< of load_after: the same, W
     double damping_before = 0;     ///< power of the particles' damping force with the old velocity, W
     double damping_after = 0;      ///< the same with the new velocity, W
 };
@@ -81,7 +84,7 @@ struct symplectic_euler {
                     add_energy(store, p, velocity, next, load, force, drag, report);
                     for (int axis = 0; axis < 3; ++axis)
                         add_freedom(surface_inertia(store, p), store.mobility(p, 3) == Real(0), spin[axis],
-                                    turned[axis], 0.0, torque[axis], brake[axis], report);
+                                    turned[axis], 0.0, torque[axis], brake[axis], true, report);
                 }
             }
         }
@@ -119,15 +122,19 @@ private:
             bool const turning = Dim == 2 && axis == 2;
             add_freedom(turning ? surface_inertia(store, p) : double(store.mass(p)),
                         store.mobility(p, axis) == Real(0), before[axis], after[axis], load[axis], force[axis],
-                        drag[axis], report);
+                        drag[axis], turning, report);
         }
     }
 
     template <class Real>
     static void add_freedom(double inertia, bool held, double before, double after, double load, double force,
-                            double drag, motion_report<Real>& report) {
-        double const outside = held ? load - force : load;
-        report.kinetic += 0.5 * inertia * before * after;
+                            double drag, bool turning, motion_report<Real>& report) {
+        double const reaction = held ? -force : 0, outside = load + reaction;
+        double const kinetic = 0.5 * inertia * before * after;
+        report.kinetic += kinetic;
+        if (turning) report.rotation += kinetic;
+        report.held_before += reaction * before;
+        report.held_after += reaction * after;
         report.load_before += outside * before;
         report.load_after += outside * after;
         report.damping_before += drag * before;

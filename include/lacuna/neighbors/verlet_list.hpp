@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include <lacuna/core/state.hpp>
 #include <lacuna/neighbors/search.hpp>
 
 namespace lacuna {
@@ -113,6 +114,17 @@ public:
     /// How often the list was built so far.
     long long build_count() const noexcept { return build_count_; }
     parameters const& settings() const noexcept { return parameters_; }
+    template <class Archive>
+    void serialize(Archive& ar) {
+        ar(pairs_, fixed_length{reference_}, build_count_);
+        for (std::size_t p = 0; p < pairs_.size(); ++p) {
+            auto const [i, j] = pairs_[p];
+            require_state(0 <= i && i < j && std::size_t(j) < reference_.size(), "a candidate that is no pair");
+            if (p > 0)
+                require_state(pairs_[p - 1].i < i || (pairs_[p - 1].i == i && pairs_[p - 1].j < j),
+                              "candidates out of order");
+        }
+    }
 
 private:
     parameters parameters_;

@@ -9,6 +9,11 @@
 #include <string_view>
 #include <utility>
 
+#if __has_include(<unistd.h>)
+#include <fcntl.h>
+#include <unistd.h>
+#endif
+
 namespace lacuna {
 
 /// A file that appears whole or not at all: it is written under a temporary name in the same directory and gets
@@ -39,6 +44,22 @@ public:
         if (!sound || !closed) fail("cannot write");
         if (std::rename(temporary_.c_str(), path_.c_str()) != 0) fail("cannot rename to");
         committed_ = true;
+    }
+    /// As commit(), and the bytes and the name are on the disk when it returns: not lost when the power fails.
+    void commit_to_disk() {
+#if __has_include(<unistd.h>)
+        if (std::fflush(file_) != 0 || fsync(fileno(file_)) != 0) fail("cannot write");
+        commit();
+        auto const slash = path_.find_last_of('/');
+        std::string const folder = slash == std::string::npos ? "." : path_.substr(0, slash + 1);
+        // Best effort: not every file system lets its folders be opened and synchronised.
+        if (int const opened = open(folder.c_str(), O_RDONLY); opened >= 0) {
+            (void)fsync(opened);
+            close(opened);
+        }
+#else
+        commit();
+#endif
     }
 
 private:

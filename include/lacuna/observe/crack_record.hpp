@@ -19,6 +19,10 @@ public:
         events_.push_back(event);
     }
     std::vector<Event> const& events() const noexcept { return events_; }
+    template <class Archive>
+    void serialize(Archive& ar) {
+        ar(events_);
+    }
 
 private:
     std::vector<Event> events_;

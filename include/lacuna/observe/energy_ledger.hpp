@@ -25,6 +25,12 @@ struct energy_ledger {
     double external = 0;      ///< work of loads, gravity, and prescribed motion
     double initial = 0;       ///< energy in the system at the start
 
+    double rotation = 0;       ///< of kinetic: of spins
+    double bond_strain = 0;    ///< of strain: in bonds
+    double shear_fracture = 0; ///< of fracture: by bonds that failed in shear
+    double prescribed = 0;     ///< of external: by prescribed motion, velocities given included
+    double fluid_work = 0;     ///< exchanged within: done by the fluid's pressure on the particles
+
     /// What does not add up: energy that is there or was spent, less energy that came in.
     double residual() const noexcept {
         return kinetic + strain + friction + damping + fracture + fluid_storage + fluid_viscous + fluid_outflow +

@@ -38,6 +38,8 @@ struct picture_style {
         require_positive("picture_style.text_size", text_size);
         require_positive("picture_style.side_column", side_column);
         require_positive("picture_style.dash_length", dash_length);
+        for (auto const& c : {ink, fibre, free, chondrocyte, tension, shear})
+            for (double const part : {c.red, c.green, c.blue}) require_in("picture_style.color", part, 0, 1);
     }
 };
 

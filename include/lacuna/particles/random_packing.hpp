@@ -38,6 +38,8 @@ struct random_packing_parameters {
         if (r_max > 4 * r_min) refuse("random_packing.r_max", r_max, "at most 4 r_min = " + to_text(4 * r_min));
         if (width < 2 * r_max) refuse("random_packing.width", width, "at least 2 r_max = " + to_text(2 * r_max));
         if (height < 2 * r_max) refuse("random_packing.height", height, "at least 2 r_max = " + to_text(2 * r_max));
+        if (width / r_max > 1e7 / (height / r_max))
+            refuse("random_packing.height", height, "such that width * height holds at most 1e7 discs");
         require_in("random_packing.area_fraction", area_fraction, 0.0, 0.9069);
         require_in("random_packing.overlap_tolerance", overlap_tolerance, 1e-4, 0.1);
         require_positive("random_packing.fraction_tolerance", fraction_tolerance);

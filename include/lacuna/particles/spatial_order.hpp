@@ -49,7 +49,7 @@ constexpr std::uint64_t hilbert_key(std::uint32_t (&x)[Dim]) noexcept {
 /// Numbering in which neighbours in space are neighbours in memory: particles along a Hilbert curve.
 /// \param points positions, m; finite
 /// \return order, a permutation: particle order[k] of the input becomes number k. Points that share a cell of the
-///         curve (1/65535 of the extent) keep their order.
+///         curve (1/65535 of the extent) come in the order of their coordinates.
 /// \throws std::invalid_argument when a coordinate is not finite
 template <class Real, int Dim>
 std::vector<std::int32_t> spatial_order(points_view<Real, Dim> points) {
@@ -66,6 +66,14 @@ std::vector<std::int32_t> spatial_order(points_view<Real, Dim> points) {
         span = std::max(span, high - low[axis]);
     }
     std::vector<std::pair<std::uint64_t, std::int32_t>> keyed(points.size());
+    auto const before = [&](auto const& a, auto const& b) {
+        if (a.first != b.first) return a.first < b.first;
+        for (int axis = 0; axis < Dim; ++axis) {
+            Real const x = points(std::size_t(a.second), axis), y = points(std::size_t(b.second), axis);
+            if (x != y) return x < y;
+        }
+        return a.second < b.second;
+    };
     for (std::size_t i = 0; i < points.size(); ++i) {
         std::uint32_t cell[Dim];
         for (int axis = 0; axis < Dim; ++axis)
@@ -74,7 +82,7 @@ std::vector<std::int32_t> spatial_order(points_view<Real, Dim> points) {
                              : 0u;
         keyed[i] = {detail::hilbert_key<Dim, bits>(cell), std::int32_t(i)};
     }
-    std::sort(keyed.begin(), keyed.end());
+    std::sort(keyed.begin(), keyed.end(), before);
     std::vector<std::int32_t> order(points.size());
     for (std::size_t k = 0; k < order.size(); ++k) order[k] = keyed[k].second;
     return order;

@@ -200,6 +200,11 @@ public:
     Real const* masses() const noexcept { return mass_.data(); }
     /// Internal index of the two partners that fill incomplete packs of pairs.
     std::int32_t ghost(int which) const noexcept { return std::int32_t(size()) + which; }
+    template <class Archive>
+    void serialize(Archive& ar) {
+        ar(place_, velocity_, surface_speed_, quaternion_, load_, fixed_length{free_}, fixed_length{loaded_});
+        for (auto const pattern : free_) require_state(pattern < free_patterns, "a particle's free axes");
+    }
     /// \}
 
     static constexpr std::size_t load_block = 128;

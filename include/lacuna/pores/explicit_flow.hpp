@@ -90,7 +90,6 @@ public:
         int const count = this->parameters_.substeps;
         return count > 0 ? Real(count) * this->substep_limit() : std::numeric_limits<Real>::infinity();
     }
-
 private:
     int count_substeps(Real dt) const {
         if (this->parameters_.substeps > 0) return this->parameters_.substeps;

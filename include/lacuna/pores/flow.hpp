@@ -73,6 +73,8 @@ struct no_flow {
         flow_ledger<Real> const& ledger() const noexcept { return ledger_; }
         pore_network<Real, Dim> const& network() const noexcept { return network_; }
         std::size_t skip_idle_throats(Real) noexcept { return 0; }
+        template <class Archive>
+        void serialize(Archive&) noexcept {}
 
     private:
         pore_network<Real, Dim> network_;

@@ -133,9 +133,14 @@ public:
         return lacuna::equation_19_time_step(network_, parameters_.bulk_modulus, parameters_.conductivity);
     }
 
+    template <class Archive>
+    void serialize(Archive& ar) {
+        ar(network_, ledger_, feed_);
+        if constexpr (Archive::is_loading::value) throats_.collect_active(network_);
+    }
+
 protected:
     using aperture_type = typename parameters::aperture_type;
-
     /// Rigid pores of a bare network, whose volumes and apertures stay as given.
     flow_base(parameters const& p, network_type network) : flow_base(p, std::move(network), Real(1)) {}
     /// Pores of a body, at its present geometry.

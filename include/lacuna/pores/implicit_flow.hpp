@@ -42,6 +42,10 @@ struct implicit_flow_parameters : flow_parameters<Aperture> {
         if (!(solver_tolerance > 0 && solver_tolerance < 1))
             refuse(name + ".solver_tolerance", solver_tolerance, "> 0 and < 1");
     }
+    template <class Archive>
+    void serialize(Archive& ar) {
+        ar(static_cast<flow_parameters<Aperture>&>(*this), factorisation_tolerance, solver_tolerance);
+    }
 };
 
 /// Backward Euler for eq. 14 and 15: all flows from the new pressures, of
@@ -56,8 +60,8 @@ struct implicit_flow_parameters : flow_parameters<Aperture> {
 /// explicit scheme, so that mass is kept to rounding. Where a step is R times the explicit limit, differences between
 /// the pressures of neighbours carry rounding of R times 1e-16 of themselves.
 ///
-/// How far an earlier factorisation is from the present numbers leaves its trace below `solver_tolerance`: a run that
-/// is restored has the same bits as one that is not with `factorisation_tolerance` = 0.
+/// How far an earlier factorisation is from the present numbers leaves its trace below `solver_tolerance`: a checkpoint
+/// keeps the numbers that were factorised.
 ///
 /// Memory is allocated when a topology is analysed and when numbers are factorised, in no other step. The equations are
 /// solved on one thread, in double precision also for float: the same bits for any number of threads.
@@ -127,6 +131,12 @@ public:
     pressure_system::counters const& solver_counters() const noexcept { return system_.done(); }
     /// What the last step left of the equations, as a pressure over the largest in the network.
     double solver_residual() const noexcept { return left_; }
+
+    template <class Archive>
+    void serialize(Archive& ar) {
+        base::serialize(ar);
+        ar(system_, left_);
+    }
 
 private:
     int count_substeps() const noexcept { return std::max(this->parameters_.substeps, 1); }

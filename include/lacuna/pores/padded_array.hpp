@@ -50,6 +50,10 @@ public:
     friend bool operator==(padded_array const& a, padded_array const& b) noexcept {
         return std::equal(a.begin(), a.end(), b.begin(), b.end());
     }
+    template <class Archive>
+    void serialize(Archive& ar) {
+        ar(fixed_length{data_});
+    }
 
 private:
     aligned_vector<T> data_;

@@ -114,6 +114,10 @@ public:
             mark_[s] = source.volume;
         }
     }
+    template <class Archive>
+    void serialize(Archive& ar) {
+        ar(fixed_length{mark_});
+    }
 
 private:
     std::vector<fed_pore> pores_;

@@ -109,6 +109,12 @@ struct pore_network {
     boundary_kind kind(std::size_t throat) const noexcept {
         return throat < open_throats() ? boundary_kind::drained : boundary_kind::sealed;
     }
+    /// What a run changes; its shape is that of the receiver.
+    template <class Archive>
+    void serialize(Archive& ar) {
+        ar(volume, old_volume, pressure, vapour, aperture, conductance, flow, reservoir_pressure, fixed_length{idle});
+        for (auto& source : sources) ar(source.value, source.volume, source.rate);
+    }
 };
 
 namespace detail {

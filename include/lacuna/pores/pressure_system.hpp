@@ -12,6 +12,8 @@
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
 
+#include <lacuna/core/state.hpp>
+
 namespace lacuna {
 
 namespace detail {
@@ -181,7 +183,25 @@ public:
 
     counters const& done() const noexcept { return counters_; }
 
+    /// What was factorised, which decides on the last bits of what follows.
+    template <class Archive>
+    void serialize(Archive& ar) {
+        bool ready = matrix_.ready();
+        ar(ready, factorised_content_, factorised_leak_, factorised_held_);
+        if constexpr (Archive::is_loading::value) take_factorised(ready);
+        ar(counters_);
+    }
+
 private:
+    void take_factorised(bool ready) {
+        if (!ready) return matrix_.analyse();
+        require_state(factorised_content_.size() == content_.size() && factorised_leak_.size() == leak_.size(),
+                      "a system of flows of another size");
+        require_state(factorised_held_ == held_, "other pores are held at their pressure");
+        content_ = factorised_content_;
+        leak_ = factorised_leak_;
+        factorise();
+    }
     int place(std::int32_t pore) const noexcept { return place_[std::size_t(pore)]; }
     /// Where entry (row, column) of the upper triangle stands.
     int slot(int row, int column) const {

@@ -80,6 +80,13 @@ public:
                 flow_->skip_idle_throats(real(duration));
             }
     }
+    template <class Archive>
+    void serialize(Archive& ar) {
+        bool filled = flow_.has_value();
+        ar(filled);
+        require_state(filled == flow_.has_value(), "its pores are filled and these are not, or the other way round");
+        if (filled) ar(*flow_);
+    }
 
 private:
     std::optional<flow_type> flow_;

@@ -8,6 +8,7 @@
 
 #include <lacuna/core/error.hpp>
 #include <lacuna/motion/symplectic_euler.hpp>
+#include <lacuna/observe/energy_ledger.hpp>
 #include <lacuna/particles/store.hpp>
 
 /// \file
@@ -71,6 +72,79 @@ Real checked_motion(particle_store<Real, Dim> const& store, std::span<motion_rep
                                "the time step is above the stable one, or a load is very large");
         }
     return path;
+}
+
+/// Watches the largest speed of a run for growth that no load causes: by four times and more in each of four runs of
+/// sixteen steps. Under a load a speed rises with the time, under one that rises itself with its square, and at an impact
+/// once; only what feeds on itself goes on like that.
+template <class Real>
+class growth_watch {
+public:
+    /// \param path upper bound of the path of every particle in the step, m
+    /// \param least below which motion is nothing but rounding, m
+    /// \return whether energy runs away
+    bool grows(long long step, Real path, Real least) noexcept {
+        if (step % window != 0) return false;
+        bool const again = path > least && path >= 4 * before_ && before_ > 0;
+        growing_ = again ? growing_ + 1 : 0;
+        before_ = path;
+        return growing_ >= 4;
+    }
+    template <class Archive>
+    void serialize(Archive& ar) {
+        ar(before_, growing_);
+    }
+
+private:
+    static constexpr long long window = 16;
+    Real before_ = 0;
+    int growing_ = 0;
+};
+
+/// Internal index of the fastest particle.
+template <class Real, int Dim>
+std::int32_t fastest_particle(particle_store<Real, Dim> const& store) noexcept {
+    std::size_t fastest = 0;
+    for (std::size_t k = 1; k < store.size(); ++k)
+        if (squared_norm(store.velocity(k)) > squared_norm(store.velocity(fastest))) fastest = k;
+    return std::int32_t(fastest);
+}
+
+/// \throws unstable_run when the speeds of a run grow as growth_watch has it, or more than half of its energy has come
+///         from nowhere (ledger: nullptr where none is kept)
+template <class Real, int Dim>
+void check_energy(particle_store<Real, Dim> const& store, growth_watch<Real>& watch, energy_ledger const* ledger,
+                  Real path, Real smallest_radius, moment const& now) {
+    Real const least = Real(1e-9) * smallest_radius;
+    if (watch.grows(now.step, path, least))
+        throw_unstable(store, now, fastest_particle(store),
+                       "it is the fastest, and the speeds grow fourfold in every 16 steps: " +
+                           to_text(double(path / smallest_radius)) + " of the smallest radius in one step",
+                       "energy runs away: the time step is above the stable one");
+    if (ledger && path > least && ledger->residual() > 0.5 * ledger->largest())
+        throw_unstable(store, now, fastest_particle(store),
+                       "it is the fastest, and " + to_text(ledger->residual()) + " J of at most " +
+                           to_text(ledger->largest()) + " J have come from nowhere",
+                       "energy runs away: the time step is above the stable one, or a law makes energy");
+}
+
+/// \throws unstable_run for a pore whose corners have passed each other: it has no volume any more
+template <class Real, int Dim, class Network>
+void check_pores(particle_store<Real, Dim> const& store, Network const& net, moment const& now) {
+    if (net.bare()) return;
+    for (std::size_t p = 0; p < net.pores(); ++p) {
+        vec<Real, Dim> const a = store.position(std::size_t(net.corner[0][p]));
+        auto const ab = store.position(std::size_t(net.corner[1][p])) - a;
+        auto const ac = store.position(std::size_t(net.corner[2][p])) - a;
+        Real const area = (ab[0] * ac[1] - ab[1] * ac[0]) / 2;
+        if (area > 0) continue;
+        std::string who;
+        for (auto const& corner : net.corner) who += " " + std::to_string(store.id(std::size_t(corner[p])));
+        throw_unstable(store, now, net.corner[0][p],
+                       "pore " + std::to_string(p) + " between particles" + who + " is turned over, its area is " +
+                           to_text(double(area)) + " m^2",
+                       "particles have passed each other: the deformation is too large for the pores of the start");
+    }
 }
 
 } // namespace lacuna

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include <lacuna/core/state.hpp>
+#include <lacuna/interactions/bond_list.hpp>
+#include <lacuna/interactions/contact_list.hpp>
+
+namespace lacuna {
+
+/// How bonds and contacts are written to a checkpoint and read back.
+///
+/// The tables follow from the candidates and from the bonds that are left: these and the histories are all there is
+/// to keep. Forces are not: the next step evaluates them, and until then they are zero in pairs that were read.
+struct interactions_archive {
+    /// Writes to, or reads from, an archive what a run changes.
+    /// \throws std::runtime_error for a state that contradicts itself; the pairs are useless then
+    template <class Archive, class Interactions, class Store>
+    static void apply(Archive& ar, Interactions& pairs, Store const& store) {
+        std::vector<std::int32_t> bonds;
+        std::vector<std::int8_t> states;
+        for (std::size_t s = 0; s < pairs.bonds_.slots(); ++s)
+            if (!pairs.bonds_.is_filler(s, store.size())) bonds.push_back(pairs.bonds_.label(s));
+        for (auto const& record : pairs.bond_records_) states.push_back(std::int8_t(record.state));
+        ar(pairs.neighbors_, pairs.path_, bonds, fixed_length{states}, pairs.broken_);
+        if constexpr (Archive::is_loading::value) rebuild(pairs, store, bonds, states);
+        ar(pairs.bonds_.states(), pairs.contacts_.states());
+    }
+
+private:
+    /// The tables of the state that is being read, still without its histories.
+    template <class Interactions, class Store>
+    static void rebuild(Interactions& pairs, Store const& store, std::vector<std::int32_t> const& bonds,
+                        std::vector<std::int8_t> const& states) {
+        auto& records = pairs.bond_records_;
+        for (std::size_t b = 0; b < states.size(); ++b) {
+            require_state(states[b] >= 0 && states[b] <= std::int8_t(bond_state::broken_in_shear), "a bond's state");
+            records[b].state = bond_state(states[b]);
+        }
+        auto& left = pairs.bond_entries_;
+        left.clear();
+        for (auto const b : bonds) {
+            require_state(b >= 0 && std::size_t(b) < records.size(), "a bond that there is not");
+            auto const& ids = records[std::size_t(b)].particles;
+            auto i = store.internal(std::size_t(ids[0])), j = store.internal(std::size_t(ids[1]));
+            if (i > j) std::swap(i, j);
+            left.push_back({i, j, pairs.parameter_row(store, i, j), b, {}});
+            require_state(left.size() < 2 || pair_before(left[left.size() - 2], left.back()), "bonds out of order");
+        }
+        for (auto const& e : pairs.broken_)
+            require_state(0 <= e.i && e.i < e.j && std::size_t(e.j) < store.size() &&
+                              e.parameter == pairs.parameter_row(store, e.i, e.j),
+                          "the contact of a broken bond");
+        pairs.old_contacts_.clear();
+        merge_contacts(pairs.neighbors_.pairs(), left, pairs.old_contacts_, pairs.new_contacts_,
+                       [&](neighbor_pair const& pair) {
+                           using entry = typename Interactions::contact_entry;
+                           return entry{pair.i, pair.j, pairs.parameter_row(store, pair.i, pair.j), -1, {}};
+                       });
+        pairs.contacts_.assign(pairs.new_contacts_, store.size(), store.ghost(0), store.ghost(1));
+        pairs.bonds_.assign(left, store.size(), store.ghost(0), store.ghost(1));
+        number_bonds(records, pairs.bonds_, store.size());
+        pairs.build_rows(store);
+        pairs.forces_.forget();
+    }
+};
+
+} // namespace lacuna
