@@ -10,6 +10,7 @@
 #include <lacuna/simulation.hpp>
 
 #include "../../examples/cartilage/cartilage_model.hpp"
+#include "simulation/specimens.hpp"
 
 using namespace lacuna;
 
@@ -68,6 +69,64 @@ TEST_CASE("the energy of a coupled run with cracks, friction and fluid adds up")
     REQUIRE(run.energy.friction > 0);
     REQUIRE(run.energy.fluid_storage > 0.01 * run.energy.largest());
     REQUIRE_THAT(run.energy.residual(), WithinAbs(0, 1e-3 * run.energy.largest()));
+}
+
+TEST_CASE("the same with water that flows, and its terms among each other") {
+    auto const s = specimens::small();
+    auto sim = specimens::make(s, 1, 150);
+    crack_record<break_event<2>> cracks;
+    sim.run(3000, cracks, energy_kept{});
+    auto const& e = sim.energy();
+    REQUIRE(cracks.events().size() > 0);
+    INFO("kinetic " << e.kinetic << " rotation " << e.rotation << " strain " << e.strain << " in bonds " << e.bond_strain
+                    << " friction " << e.friction << " fracture " << e.fracture << " in shear " << e.shear_fracture
+                    << " stored in fluid " << e.fluid_storage << " viscous " << e.fluid_viscous << " out "
+                    << e.fluid_outflow << " fluid's work " << e.fluid_work << " external " << e.external
+                    << " residual " << e.residual());
+    REQUIRE(e.friction > 0);
+    REQUIRE(e.fluid_viscous > 0);
+    REQUIRE(e.rotation > 0);
+    REQUIRE(e.rotation < e.kinetic);
+    REQUIRE(e.bond_strain > 0);
+    REQUIRE(e.bond_strain < e.strain);
+    REQUIRE(e.shear_fracture <= e.fracture);
+    REQUIRE_THAT(e.residual(), WithinAbs(0, 1e-3 * e.largest()));
+    // What the particles did on the fluid is stored there, dissipated or gone.
+    REQUIRE_THAT(-e.fluid_work, WithinRel(e.fluid_storage + e.fluid_viscous + e.fluid_outflow, 1e-9));
+    // Terms that a state shows, from scratch.
+    double stored = 0;
+    auto const& net = sim.flow().network();
+    for (std::size_t p = 0; p < net.pores(); ++p)
+        stored += net.volume[p] * net.pressure[p] * net.pressure[p] / (2 * sim.settings().flow.bulk_modulus);
+    REQUIRE_THAT(e.fluid_storage, WithinRel(stored, 1e-12));
+    double released = 0;
+    for (auto const& event : cracks.events()) released += event.energy;
+    REQUIRE_THAT(e.fracture, WithinRel(released, 0.2));
+}
+
+TEST_CASE("a pore that is turned over stops the run") {
+    auto p = cartilage::model_parameters<cartilage::wet_model>(specimens::small(), 0.01);
+    p.walls.clear();
+    p.time_step = 1e-9;
+    packing<double, 2> discs;
+    for (vec<double, 2> const x : {vec<double, 2>{0, 0}, {3e-6, 0}, {1.5e-6, 2e-6}}) discs.add(x, 0.5e-6, 1);
+    simulation<cartilage::wet_model> sim(discs, p);
+    sim.fill_pores([](points_view<double, 2> points, double const* radii) {
+        return make_pore_network(regular_triangulation(points, radii), points, radii);
+    });
+    // The upper one passes between the two others.
+    for (std::size_t k = 0; k < 3; ++k) sim.fix(k);
+    sim.set_velocity(2, {0, -1e-8 / p.time_step});
+    try {
+        sim.run(1000);
+        FAIL("nothing was thrown");
+    } catch (unstable_run const& e) {
+        // 2e-6 m at 1e-8 m a step; pores are looked at now and then.
+        REQUIRE(e.step() >= 199);
+        REQUIRE(e.step() < 199 + 64);
+        REQUIRE_THAT(e.what(), contains_text("pore 0 between particles") && contains_text("turned over") &&
+                                   contains_text("step " + std::to_string(e.step())));
+    }
 }
 
 TEST_CASE("a symmetric packing under a symmetric load stays symmetric") {

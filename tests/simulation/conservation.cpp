@@ -204,3 +204,64 @@ TEST_CASE("the ledger of damped, sliding and breaking runs", "[energy]") {
         REQUIRE(std::fabs(run.energy().residual()) < 5e-3 * run.energy().largest());
     }
 }
+
+TEST_CASE("the parts of the ledger's terms", "[energy]") {
+    auto p = springs<plane>(1, 1, 0.5, unit_density(2));
+    p.time_step = 0.001;
+    SECTION("rotation of a spinning disc, translation of a flying one") {
+        lacuna::packing<double, 2> apart;
+        apart.add({0, 0}, 0.5);
+        apart.add({5, 0}, 0.5);
+        lacuna::simulation<plane> run(apart, p);
+        run.set_spin(0, {0.2});
+        run.set_velocity(1, {0, 0.3});
+        run.step_with_energy();
+        // I = m r^2 / 2 = 1/8 kg m^2
+        REQUIRE_THAT(run.energy().rotation, WithinRel(0.5 * 0.125 * 0.04, 1e-14));
+        REQUIRE_THAT(run.energy().kinetic, WithinRel(0.5 * 0.125 * 0.04 + 0.5 * 0.09, 1e-14));
+    }
+    SECTION("strain of bonds and of contacts, work of prescribed motion and of loads") {
+        // Two pairs, one bonded, both pressed together by 0.01 m: 1/2 k u^2 each.
+        lacuna::packing<double, 2> pairs;
+        for (double const y : {0.0, 5.0})
+            for (double const x : {0.0, 1.0}) pairs.add({x, y}, 0.5);
+        pairs.bonds.push_back({0, 1});
+        lacuna::simulation<plane> run(pairs, p);
+        for (std::size_t const k : {0, 1, 2, 3}) run.fix(k);
+        run.step_with_energy();
+        run.set_velocity(1, {-1e-2, 0});
+        run.set_velocity(3, {-1e-2, 0});
+        for (int n = 0; n < 1000; ++n) run.step_with_energy();
+        run.set_velocity(1, {0, 0});
+        run.set_velocity(3, {0, 0});
+        run.step_with_energy();
+        REQUIRE_THAT(run.energy().strain, WithinRel(1e-4, 1e-9));
+        REQUIRE_THAT(run.energy().bond_strain, WithinRel(0.5e-4, 1e-9));
+        REQUIRE_THAT(run.energy().prescribed, WithinRel(1e-4, 1e-2));
+        REQUIRE(run.energy().prescribed == run.energy().external);
+
+        lacuna::simulation<plane> loaded(chain<2>(2), p);
+        loaded.fix(0);
+        loaded.apply(1, {1e-4, 0});
+        for (int n = 0; n < 1000; ++n) loaded.step_with_energy();
+        REQUIRE(loaded.energy().external > 0);
+        REQUIRE(loaded.energy().prescribed == 0);
+        REQUIRE(loaded.energy().bond_strain == loaded.energy().strain);
+    }
+    SECTION("failure in tension and in shear") {
+        for (bool const shear : {false, true}) {
+            auto q = springs<plane>(1, 1, 0, unit_density(2), shear ? never : 1e-3, shear ? 1e-3 : never);
+            q.time_step = 0.001;
+            lacuna::simulation<plane> run(chain<2>(2), q);
+            run.fix(0);
+            run.fix(1);
+            run.step_with_energy();
+            run.set_velocity(1, {shear ? 0.0 : 1e-3, shear ? 1e-3 : 0.0});
+            for (int n = 0; n < 2000; ++n) run.step_with_energy();
+            // 1/2 limit^2 / k
+            REQUIRE_THAT(run.energy().fracture, WithinRel(0.5e-6, 5e-3));
+            REQUIRE_THAT(run.energy().shear_fracture, WithinAbs(shear ? run.energy().fracture : 0.0, 1e-15));
+            REQUIRE(run.energy().bond_strain == 0);
+        }
+    }
+}

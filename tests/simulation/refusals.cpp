@@ -19,6 +19,21 @@ std::string refusal(auto const& build) {
     return "accepted";
 }
 
+/// Pushes three times as hard when a pair comes apart as when it comes together.
+struct pusher : lacuna::frictional_spring {
+    template <class T, int Dim>
+    static lacuna::pair_response<T, Dim, history<T, Dim>> evaluate(parameters<T> const& p,
+                                                                   lacuna::pair_motion<T, Dim> const& m,
+                                                                   history<T, Dim> const& h) {
+        auto answer = lacuna::frictional_spring::evaluate(p, m, h);
+        answer.normal_force = answer.normal_force * lacuna::select(m.normal_rate > T(0), T(1.5), T(0.5));
+        return answer;
+    }
+};
+struct plane_of_pushers : plane {
+    using contact_law = pusher;
+};
+
 } // namespace
 
 TEST_CASE("each bad parameter is refused by name", "[refusal]") {
@@ -198,5 +213,46 @@ TEST_CASE("a run that went wrong says where", "[unstable]") {
         lacuna::simulation<plane> run(chain<2>(8), q);
         run.set_velocity(0, {1e-6, 0});
         CHECK_THROWS_AS(run.run(10000), lacuna::unstable_run);
+    }
+}
+
+TEST_CASE("a run whose energy runs away is stopped", "[unstable]") {
+    auto const said = [](auto const& play) {
+        try {
+            play();
+        } catch (lacuna::unstable_run const& e) {
+            CHECK(e.particle() >= 0);
+            CHECK_THAT(e.what(), contains_text("step " + std::to_string(e.step())) &&
+                                     contains_text("particle " + std::to_string(e.particle())));
+            return std::string(e.what());
+        }
+        return std::string("nothing was thrown");
+    };
+    auto p = springs<plane>(1, 0, 0, unit_density(2));
+    SECTION("seen from the speeds") {
+        // A free pair of 1 kg each swings at sqrt(2 k / m); a step above its limit of sqrt(2) s makes each swing larger.
+        p.allow_unstable_step = true;
+        p.time_step = 1.416;
+        lacuna::simulation<plane> run(chain<2>(2), p);
+        run.set_velocity(0, {1e-8, 0});
+        REQUIRE_THAT(said([&] { run.run(10000); }), contains_text("grow fourfold") && contains_text("time step"));
+    }
+    SECTION("seen from the ledger: a law that makes energy") {
+        auto q = springs<plane_of_pushers>(1, 0, 0, unit_density(2));
+        q.time_step = 0.01;
+        lacuna::simulation<plane_of_pushers> run(chain<2>(2, false), q);
+        run.set_velocity(0, {1e-3, 0});
+        auto const text = said([&] {
+            for (int n = 0; n < 10000; ++n) run.step_with_energy();
+        });
+        REQUIRE_THAT(text, contains_text("energy runs away") && contains_text("from nowhere"));
+    }
+    SECTION("not below the limit, under loads and in impacts") {
+        p.time_step = 0.5;
+        p.gravity = {0, -1e-6};
+        lacuna::simulation<plane> run(chain<2>(4), p);
+        run.apply(0, {1e-4, 0}, 0, 300);
+        run.set_velocity(3, {0, 1e-3});
+        REQUIRE(said([&] { run.run(500); }) == "nothing was thrown");
     }
 }

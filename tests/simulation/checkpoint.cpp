@@ -1,0 +1,313 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <cstdio>
+#include <fstream>
+#include <iterator>
+
+#include <lacuna/observe/crack_record.hpp>
+#include <lacuna/pores/implicit_flow.hpp>
+#include <lacuna/simulation/checkpoint.hpp>
+
+#include "catch.hpp"
+#include "simulation/setups.hpp"
+#include "simulation/specimens.hpp"
+
+using namespace setups;
+
+namespace {
+
+using cracks_2d = lacuna::crack_record<lacuna::break_event<2>>;
+
+struct energy_watch {
+    static constexpr lacuna::stage stages = lacuna::stage::end;
+    static constexpr bool needs_energy = true;
+    template <class Simulation>
+    void on_end(Simulation const&) {}
+};
+/// Stops a run after step `last`.
+struct stop_after {
+    static constexpr lacuna::stage stages = lacuna::stage::step;
+    long long last;
+    template <class Simulation>
+    lacuna::run_control on_step(Simulation const& s) const {
+        return s.steps() >= last ? lacuna::run_control::stop : lacuna::run_control::go_on;
+    }
+};
+
+/// A file that is gone when the test is over.
+struct scratch_file {
+    explicit scratch_file(std::string name) : path("checkpoint_" + std::move(name) + ".bin") {}
+    ~scratch_file() { std::remove(path.c_str()); }
+    std::string path;
+};
+
+std::string read_all(std::string const& path) {
+    std::ifstream in(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+void write_all(std::string const& path, std::string const& bytes) { std::ofstream(path, std::ios::binary) << bytes; }
+
+std::string why(auto const& load) {
+    try {
+        load();
+    } catch (lacuna::checkpoint_error const& e) {
+        return e.what();
+    }
+    return "accepted";
+}
+
+struct space_viscous_in_single : lacuna::default_model<3, float> {
+    using damping = lacuna::viscous_damping;
+};
+
+/// Discs or spheres in a box of walls, half of them bonded, thrown about; some loads still rise, one is held.
+template <class Model>
+lacuna::simulation<Model> lively(int threads = 1) {
+    constexpr int dim = Model::dim;
+    using real = typename Model::real;
+    lacuna::packing<real, dim> packing;
+    auto const noise = [](std::size_t k, int salt) { return std::sin(12.9898 * double(k) + 78.233 * salt); };
+    int const layers = dim == 3 ? 6 : 1;
+    for (int z = 0; z < layers; ++z)
+        for (int y = 0; y < 6; ++y)
+            for (int x = 0; x < 12; ++x) {
+                auto const k = packing.size();
+                lacuna::vec<real, dim> at{};
+                int const cell[3] = {x, y, z};
+                for (int axis = 0; axis < dim; ++axis) at[axis] = real(cell[axis] + 0.02 * noise(k, axis));
+                packing.add(at, real(0.49 + 0.02 * noise(k, 3)));
+                if (x > 0 && noise(k, 4) > -0.3) packing.bonds.push_back({std::int32_t(k) - 1, std::int32_t(k)});
+            }
+    auto p = springs<Model>(100, 70, 0.4, unit_density(dim), 1.0, 1.0);
+    p.time_step = 5e-3;
+    p.threads = threads;
+    p.interactions.initial_contact_tolerance = 0.02;
+    p.interactions.skin = 0.05;
+    p.mass = dim == 2 ? lacuna::mass_model::disc : lacuna::mass_model::sphere;
+    lacuna::vec<double, dim> floor{}, up{};
+    floor[1] = -0.6;
+    up[1] = 1;
+    p.walls = {{floor, up, p.materials[0].contact}};
+    p.gravity[1] = -0.5;
+    lacuna::simulation<Model> run(packing, p);
+    run.fix(7);
+    for (std::size_t k = 0; k < run.size(); ++k) {
+        lacuna::vec<double, dim> v{};
+        for (int axis = 0; axis < dim; ++axis) v[axis] = 0.4 * noise(k, 6 + axis);
+        run.set_velocity(k, v);
+        lacuna::vec<double, dim> push{};
+        push[0] = 0.1;
+        if (k % 5 == 0) run.apply(k, push, 0, 0.4);
+    }
+    return run;
+}
+
+template <class Model>
+void check_resumed() {
+    constexpr int dim = Model::dim;
+    using record = lacuna::crack_record<lacuna::break_event<dim>>;
+    scratch_file const file("lively" + std::to_string(dim));
+    auto whole = lively<Model>();
+    record all;
+    whole.run(120, all, energy_watch{});
+    REQUIRE(all.events().size() > 5);
+    REQUIRE(whole.pairs().neighbors().build_count() > 3);
+    for (long long const at : {0, 1, 50, 119}) {
+        auto first = lively<Model>();
+        record seen;
+        if (at > 0) first.run(120, seen, energy_watch{}, stop_after{at});
+        if (at == 50) first.set_velocity(3, first.velocity(3)); // pending at the moment of saving
+        lacuna::save_checkpoint(file.path, first, seen);
+        auto second = lively<Model>(at == 1 && dim == 2 ? 2 : 1);
+        record resumed;
+        lacuna::load_checkpoint(file.path, second, resumed);
+        REQUIRE(lacuna::state_hash(second) == lacuna::state_hash(first));
+        REQUIRE(second.steps() == at);
+        second.run(120 - at, resumed, energy_watch{});
+        if (at == 50) {
+            first.run(120 - at, seen, energy_watch{});
+            REQUIRE(lacuna::state_hash(second) == lacuna::state_hash(first));
+        } else {
+            REQUIRE(lacuna::state_hash(second) == lacuna::state_hash(whole));
+        }
+        REQUIRE(resumed.events().size() == all.events().size());
+        REQUIRE(second.energy().residual() == whole.energy().residual());
+    }
+}
+
+} // namespace
+
+TEST_CASE("a resumed run has the bits of the run that was never stopped", "[checkpoint]") {
+    check_resumed<plane>();
+    check_resumed<space>();
+    check_resumed<space_viscous_in_single>();
+}
+
+namespace {
+
+template <class Model>
+void check_coupled(std::string const& name) {
+    scratch_file const file(name);
+    auto const s = specimens::small();
+    auto whole = specimens::make<Model>(s);
+    cracks_2d all;
+    whole.run(1200, all, energy_watch{});
+    REQUIRE(all.events().size() > 10);
+    REQUIRE(whole.pairs().neighbors().build_count() > 3);
+    double flowed = 0;
+    for (double const q : whole.flow().network().flow) flowed = std::max(flowed, std::fabs(q));
+    REQUIRE(flowed > 0);
+    // Right after a bond broke, before it is handed over; right before; between; at the ends.
+    auto const broke = all.events()[all.events().size() / 2].step + 1;
+    for (long long const at : {1LL, broke - 1, broke, 900LL, 1199LL}) {
+        auto first = specimens::make<Model>(s, at == 1 ? 2 : 1);
+        cracks_2d seen;
+        first.run(1200, seen, energy_watch{}, lacuna::checkpoint_every(at, file.path, seen), stop_after{at});
+        auto second = specimens::make<Model>(s);
+        cracks_2d resumed;
+        lacuna::load_checkpoint(file.path, second, resumed);
+        REQUIRE(second.steps() == at);
+        second.run(1200 - at, resumed, energy_watch{});
+        REQUIRE(lacuna::state_hash(second) == lacuna::state_hash(whole));
+        REQUIRE(resumed.events().size() == all.events().size());
+        REQUIRE(second.energy().residual() == whole.energy().residual());
+    }
+}
+
+struct wet_implicit : specimens::wet {
+    using flow = lacuna::implicit_flow;
+};
+
+} // namespace
+
+TEST_CASE("a resumed coupled run has the bits of the one that was never stopped", "[checkpoint][cartilage]") {
+    check_coupled<specimens::wet>("coupled");
+}
+
+TEST_CASE("the same with the implicit flow, whose factorisation is older than the checkpoint", "[checkpoint][cartilage]") {
+    check_coupled<wet_implicit>("implicit");
+}
+
+TEST_CASE("a checkpoint that is not sound is refused, and nothing changes", "[checkpoint]") {
+    scratch_file const file("spoilt");
+    auto p = springs<plane>(1, 1, 0.3, unit_density(2));
+    p.time_step = 0.05;
+    lacuna::simulation<plane> run(chain<2>(3), p);
+    run.set_velocity(1, {0.01, 0.02});
+    cracks_2d cracks;
+    run.run(10, cracks);
+    lacuna::save_checkpoint(file.path, run, cracks);
+    std::string const sound = read_all(file.path);
+    lacuna::simulation<plane> other(chain<2>(3), p);
+    auto const before = lacuna::state_hash(other);
+    auto const attempt = [&](std::string const& bytes) {
+        write_all(file.path, bytes);
+        std::string const said = why([&] { lacuna::load_checkpoint(file.path, other, cracks); });
+        if (lacuna::state_hash(other) != before) return std::string("it has changed");
+        return said;
+    };
+    SECTION("truncated anywhere") {
+        for (std::size_t length = 0; length < sound.size(); ++length) {
+            std::string const said = why([&] { (void)lacuna::unpack_checkpoint(sound.substr(0, length), "name"); });
+            INFO(length);
+            REQUIRE_THAT(said, contains_text("checkpoint name: "));
+            REQUIRE_THAT(said, contains_text(length < 8 ? "not a checkpoint" : "truncated"));
+        }
+        REQUIRE_THAT(attempt(sound.substr(0, sound.size() / 2)), contains_text(file.path) && contains_text("truncated"));
+    }
+    SECTION("any byte flipped") {
+        for (std::size_t k = 0; k < sound.size(); ++k) {
+            std::string spoilt = sound;
+            spoilt[k] = char(spoilt[k] ^ (1 << (k % 8)));
+            INFO(k);
+            REQUIRE(why([&] { (void)lacuna::unpack_checkpoint(spoilt, "name"); }) != "accepted");
+        }
+        std::string spoilt = sound;
+        spoilt[sound.size() / 2] = char(spoilt[sound.size() / 2] + 1);
+        REQUIRE_THAT(attempt(spoilt), contains_text("checksum") && contains_text("corrupted"));
+    }
+    SECTION("too long, foreign, missing") {
+        REQUIRE_THAT(attempt(sound + "x"), contains_text("does not end as it should"));
+        REQUIRE_THAT(attempt("\x7f" "ELF, a program"), contains_text("not a checkpoint of Lacuna"));
+        REQUIRE_THAT(attempt(""), contains_text("not a checkpoint of Lacuna"));
+        REQUIRE_THAT(why([&] { lacuna::load_checkpoint("no_such_file.bin", other); }),
+                     contains_text("no_such_file.bin") && contains_text("cannot read"));
+    }
+    SECTION("from a newer version, or another machine") {
+        std::string spoilt = sound;
+        spoilt[12] = 2;
+        REQUIRE_THAT(attempt(spoilt), contains_text("newer version"));
+        spoilt = sound;
+        spoilt[20] = char(LACUNA_VERSION_MINOR + 1);
+        REQUIRE_THAT(attempt(spoilt), contains_text("newer version"));
+        spoilt = sound;
+        spoilt[12] = 0;
+        REQUIRE_THAT(attempt(spoilt), contains_text("format 0 is unknown"));
+        spoilt = sound;
+        std::swap(spoilt[8], spoilt[11]);
+        REQUIRE_THAT(attempt(spoilt), contains_text("byte order"));
+    }
+    SECTION("of another model, other settings, other particles, other observers") {
+        write_all(file.path, sound);
+        lacuna::simulation<plane_viscous> viscous(chain<2>(3));
+        REQUIRE_THAT(why([&] { lacuna::load_checkpoint(file.path, viscous, cracks); }),
+                     contains_text("another model") && contains_text("lacuna::no_damping") &&
+                         contains_text("lacuna::viscous_damping"));
+        auto q = p;
+        q.materials[0].contact.friction = 0.31;
+        lacuna::simulation<plane> rough(chain<2>(3), q);
+        REQUIRE_THAT(why([&] { lacuna::load_checkpoint(file.path, rough, cracks); }), contains_text("other settings"));
+        lacuna::simulation<plane> longer(chain<2>(4), p);
+        REQUIRE_THAT(why([&] { lacuna::load_checkpoint(file.path, longer, cracks); }), contains_text("other settings"));
+        lacuna::simulation<plane> loose(chain<2>(3, false), p);
+        REQUIRE_THAT(why([&] { lacuna::load_checkpoint(file.path, loose, cracks); }), contains_text("other settings"));
+        REQUIRE_THAT(why([&] { lacuna::load_checkpoint(file.path, other); }), contains_text("number of observers"));
+        q = p;
+        q.threads = 2;
+        lacuna::simulation<plane> threaded(chain<2>(3), q);
+        REQUIRE(why([&] { lacuna::load_checkpoint(file.path, threaded, cracks); }) == "accepted");
+    }
+    SECTION("a state that contradicts itself behind a sound envelope") {
+        auto content = lacuna::read_checkpoint(file.path);
+        auto const whole = content.state;
+        for (std::size_t length : {std::size_t(0), std::size_t(1), whole.size() / 2, whole.size() - 1}) {
+            content.state = whole.substr(0, length);
+            REQUIRE_THAT(attempt(lacuna::pack_checkpoint(content)), contains_text("its state does not fit"));
+        }
+        content.state = whole + "x";
+        REQUIRE_THAT(attempt(lacuna::pack_checkpoint(content)), contains_text("longer than it should be"));
+    }
+}
+
+TEST_CASE("every setting that matters is part of a checkpoint's identity", "[checkpoint]") {
+    using settings = lacuna::simulation_parameters<specimens::wet>;
+    auto const s = specimens::small();
+    auto const hash = [&](auto const& change) {
+        auto p = cartilage::model_parameters<specimens::wet>(s, 0.01);
+        change(p);
+        lacuna::simulation<specimens::wet> run(s.discs, p);
+        return lacuna::detail::settings_hash(run);
+    };
+    auto const same = hash([](settings&) {});
+    void (*const changes[])(settings&) = {
+        [](settings& p) { p.materials[1].density *= 2; },
+        [](settings& p) { p.materials[0].bond.shear_strength *= 2; },
+        [](settings& p) { p.thickness *= 2; },
+        [](settings& p) { p.mass = lacuna::mass_model::sphere; },
+        [](settings& p) { p.gravity[1] = -9.81; },
+        [](settings& p) { p.interactions.skin = 0.2; },
+        [](settings& p) { p.walls[1].point[0] += 1e-6; },
+        [](settings& p) { p.flow.aperture.gap_factor = 0.5; },
+        [](settings& p) { p.flow.initial_pressure = 1; },
+        [](settings& p) { p.time_step = 1e-12; },
+        [](settings& p) { p.safety = 0.3; },
+        [](settings& p) { p.start_time = 1; },
+    };
+    for (auto const change : changes) REQUIRE(hash(change) != same);
+    REQUIRE(hash([](settings& p) { p.threads = 2; }) == same);
+    REQUIRE(hash([](settings& p) { p.keep_pair_forces = false; }) == same);
+}
+
+TEST_CASE("checkpoint_every refuses an interval below one", "[checkpoint][refusal]") {
+    REQUIRE_THROWS_AS(lacuna::checkpoint_every(0, "name"), std::invalid_argument);
+}
