@@ -12,6 +12,7 @@
 #include <lacuna/particles/cartilage_specimen_types.hpp>
 #include <lacuna/particles/random_packing.hpp>
 #include <lacuna/pores/flow_parameters.hpp>
+#include <lacuna/pores/implicit_flow.hpp>
 
 #include "catch.hpp"
 #include "simulation/setups.hpp"
@@ -143,6 +144,37 @@ TEST_CASE("each number of interactions, damping, walls, apertures, flow", "[refu
                           {"x.skip_ratio", rule::most}};
     for (auto const& a : aperture) flow.push_back({"x.aperture." + a.name, a.law});
     check_named(lacuna::flow_parameters<lacuna::contact_force_aperture>{}, flow);
+    check_named(lacuna::cubic_crack_aperture::parameters{}, {{"x.residual_aperture", rule::positive}, {"x.hydraulic_factor", rule::open_share}});
+    check_named(lacuna::exponential_aperture::parameters{}, {{"x.zero_force_aperture", rule::positive},
+                                                              {"x.residual_aperture", rule::bound},
+                                                              {"x.decay_force", rule::positive},
+                                                              {"x.gap_factor", rule::share}});
+    // Those of the implicit scheme: the fluid's, and two of its own.
+    for (double const value : fed) {
+        lacuna::implicit_flow_parameters<lacuna::contact_force_aperture> p;
+        p.solver_tolerance = value;
+        CHECK_THROWS_WITH(p.validate("x"), contains_text("x.solver_tolerance = " + lacuna::to_text(value)));
+        p = {};
+        p.factorisation_tolerance = value;
+        if (value == 0)
+            CHECK_NOTHROW(p.validate("x"));
+        else
+            CHECK_THROWS_WITH(p.validate("x"), contains_text("x.factorisation_tolerance = " + lacuna::to_text(value)));
+        p = {};
+        p.bulk_modulus = value;
+        if (accepted(rule::positive, value))
+            CHECK_NOTHROW(p.validate("x"));
+        else
+            CHECK_THROWS_WITH(p.validate("x"), contains_text("x.bulk_modulus = " + lacuna::to_text(value)));
+    }
+    for (int const value : {-1, std::numeric_limits<int>::max()}) {
+        lacuna::flow_parameters<lacuna::contact_force_aperture> p;
+        p.substeps = value;
+        CHECK_THROWS_WITH(p.validate("x"), contains_text("x.substeps"));
+        p = {};
+        p.interval = value;
+        CHECK_THROWS_WITH(p.validate("x"), contains_text("x.interval"));
+    }
 }
 
 TEST_CASE("each number of a simulation", "[refusal]") {
