@@ -268,7 +268,7 @@ private:
             ledger_.close();
         }
         check_energy(store_, growth_, WithEnergy ? &ledger_.ledger() : nullptr, moved_, smallest_radius_, now());
-        if constexpr (has_fluid<Model>)
+        if constexpr (has_fluid<Model> && dim == 2)
             if (changed || step_ % 64 == 63) check_pores(store_, fluid_.get()->network(), now());
         ++step_;
     }

@@ -128,15 +128,15 @@ void check_energy(particle_store<Real, Dim> const& store, growth_watch<Real>& wa
                        "energy runs away: the time step is above the stable one, or a law makes energy");
 }
 
-/// \throws unstable_run for a pore whose corners have passed each other: it has no volume any more
-template <class Real, int Dim, class Network>
-void check_pores(particle_store<Real, Dim> const& store, Network const& net, moment const& now) {
+/// Pores in the plane. \throws unstable_run for one whose corners have passed each other: it has no volume any more
+template <class Real, class Network>
+void check_pores(particle_store<Real, 2> const& store, Network const& net, moment const& now) {
     if (net.bare()) return;
     for (std::size_t p = 0; p < net.pores(); ++p) {
-        vec<Real, Dim> const a = store.position(std::size_t(net.corner[0][p]));
+        auto const a = store.position(std::size_t(net.corner[0][p]));
         auto const ab = store.position(std::size_t(net.corner[1][p])) - a;
         auto const ac = store.position(std::size_t(net.corner[2][p])) - a;
-        Real const area = (ab[0] * ac[1] - ab[1] * ac[0]) / 2;
+        Real const area = cross(ab, ac) / 2;
         if (area > 0) continue;
         std::string who;
         for (auto const& corner : net.corner) who += " " + std::to_string(store.id(std::size_t(corner[p])));
