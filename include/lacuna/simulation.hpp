@@ -7,6 +7,7 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <lacuna/core/parallel.hpp>
@@ -14,6 +15,7 @@
 #include <lacuna/interactions/interactions_archive.hpp>
 #include <lacuna/interactions/walls.hpp>
 #include <lacuna/loads/load_set.hpp>
+#include <lacuna/loads/prescribed_motion.hpp>
 #include <lacuna/model.hpp>
 #include <lacuna/observe/observer.hpp>
 #include <lacuna/particles/spatial_order.hpp>
@@ -23,6 +25,7 @@
 #include <lacuna/simulation/limits.hpp>
 #include <lacuna/simulation/parameters.hpp>
 #include <lacuna/simulation/particle_access.hpp>
+#include <lacuna/simulation/particle_forces.hpp>
 
 namespace lacuna {
 
@@ -66,7 +69,8 @@ public:
         store_ = store_type(packing, order, density, p.mass, p.thickness);
         loads_ = load_set<real, dim>(p.gravity, store_.size());
         loads_.apply_gravity(store_);
-        interactions_ = interactions_type(store_, packing.bonds, p.materials, p.thickness, p.interactions, p.damping);
+        interactions_ = interactions_type(store_, packing.bonds, p.materials, p.thickness, p.interactions, p.damping,
+                                          p.bonds);
         walls_ = wall_contacts<contact_law_type, damping_type, real, dim>(p.walls, contact_materials, p.thickness);
         smallest_radius_ = store_.size() ? *std::min_element(store_.radii().begin(), store_.radii().end()) : real(1);
         update_walls();
@@ -78,24 +82,41 @@ public:
     /// \{
     /// Gives a particle a velocity, m/s; the ledger books the kinetic energy as work from outside.
     void set_velocity(std::size_t id, point const& v) {
-        auto const k = internal(id);
-        kicked_.push_back({k, store_.velocity(k), store_.spin(k)});
-        ledger_.book_work(0.5 * double(store_.mass(k)) * (squared_norm(v) - squared_norm(convert<double>(store_.velocity(k)))));
-        store_.set_velocity(k, convert<real>(v));
+        motions_.forget(internal(id));
+        give_velocity(internal(id), v);
+    }
+    /// Prescribes a particle's velocity, and fixes it along the axes: from the one it has it changes linearly to v
+    /// within ramp_time, from now on; 0: at once. m/s, s. The ledger books what it takes as work from outside.
+    void move(std::size_t id, point const& v, double ramp_time = 0, fixed_axes const& axes = {true, true, true, false}) {
+        for (int axis = 0; axis < dim; ++axis) require_finite("velocity of particle " + std::to_string(id), v[axis]);
+        require_not_negative("ramp_time of particle " + std::to_string(id), ramp_time);
+        fix(id, axes);
+        if (!(ramp_time > 0)) return set_velocity(id, v);
+        motions_.add(internal(id), convert<double>(store_.velocity(internal(id))), v, ramp_time, now().time);
     }
     /// Gives a particle a spin, rad/s; the ledger books the kinetic energy as work from outside.
     void set_spin(std::size_t id, vec<double, rotation_dim<dim>> const& w) {
         auto const k = internal(id);
-        kicked_.push_back({k, store_.velocity(k), store_.spin(k)});
+        kicked_.push_back({k, store_.velocity(k), store_.spin(k), true});
         ledger_.book_work(0.5 * double(store_.moment_of_inertia(k)) * (squared_norm(w) - squared_norm(convert<double>(store_.spin(k)))));
         store_.set_spin(k, convert<real>(w));
     }
     /// Prescribes the motion along the given axes: there the particle keeps the velocity it has or is given.
     void fix(std::size_t id, fixed_axes const& axes = fixed_axes::all()) { store_.fix(internal(id), axes); }
-    /// Applies a force, and in 2D a torque, on top of gravity; replaces the one applied before. N, N m.
+    /// Applies a force and a torque on top of gravity; replaces the ones applied before. N, N m.
     /// \param ramp_time within which it rises linearly from zero, from now on, s; 0: at once
-    void apply(std::size_t id, point const& force, double torque = 0, double ramp_time = 0) {
-        loads_.set(store_, internal(id), force, torque, ramp_time, ramp_time > 0 ? time() : parameters_.start_time);
+    void apply(std::size_t id, point const& force, vec<double, rotation_dim<dim>> const& torque, double ramp_time = 0) {
+        loads_.set(store_, internal(id), force, torque, ramp_time, now().time);
+    }
+    void apply(std::size_t id, point const& force, double torque = 0, double ramp_time = 0)
+        requires(dim == 2)
+    {
+        apply(id, force, vec<double, 1>{torque}, ramp_time);
+    }
+    void apply(std::size_t id, point const& force)
+        requires(dim == 3)
+    {
+        apply(id, force, point{});
     }
     /// \}
 
@@ -144,7 +165,7 @@ public:
         settle_time_step();
         return *time_step_;
     }
-    double time() const { return parameters_.start_time + double(step_) * time_step(); }
+    double time() const { return clock_.time + double(step_ - clock_.step) * time_step(); }
     /// Failures of the last step.
     std::span<event_type const> events() const noexcept { return events_; }
     /// Kept while an observer with needs_energy is there, or step_with_energy() is used.
@@ -168,6 +189,12 @@ public:
             force[axis] = (i < j ? 1 : -1) * double(interactions_.force_column()[offset + axis]);
         return force;
     }
+
+    /// Total force on a particle, and torque, at the last evaluation, N, N m: of pairs, fluid, walls, loads and gravity;
+    /// not of damping policies that act on particles.
+    /// \throws std::logic_error when forces are not kept: see simulation_parameters::keep_pair_forces
+    point force(std::size_t id) const { return convert<double>(kept_force(id).force); }
+    vec<double, rotation_dim<dim>> torque(std::size_t id) const { return convert<double>(kept_force(id).turning) * this->radius(id); }
 
     interactions_type const& pairs() const noexcept { return interactions_; }
     auto const& walls() const noexcept { return walls_; }
@@ -216,15 +243,21 @@ private:
     template <bool WithEnergy>
     void take_step() {
         settle_time_step();
-        auto const dt = real(*time_step_);
         bool const changed = interactions_.update(store_, moved_);
         if (changed) update_walls();
+        // Slips are those of the motion that led here, with the step of then.
+        auto const before = real(step_ > 0 ? clock_.last : *time_step_);
+        if (changed && parameters_.follow_critical_step) follow_critical_step();
+        auto const dt = real(*time_step_);
+        clock_.last = *time_step_;
         loads_.advance(store_, time());
+        motions_.advance(time(), *time_step_, [&](std::size_t k, point const& v) { give_velocity(k, v); });
         for (auto& r : reports_) r = {};
 
         int const chunks = interactions_.chunks();
-        bool const further_forces = filled() || !walls_.empty();
-        bool at_once = !further_forces && kicked_.empty();
+        bool const further_forces = filled() || !walls_.empty() || carries_moment<bond_law_type>;
+        bool const on_time = parameters_.velocities_on_time && (step_ == 0 || !kicked_.empty());
+        bool at_once = !further_forces && kicked_.empty() && !on_time;
         // Whoever gives velocities again and again does not want the forces laid out anew each time.
         if (!kicked_.empty() && step_ > 0) streams_ = false;
         interactions_.set_mode(store_, streams_ && at_once && !parameters_.keep_pair_forces, parameters_.threads);
@@ -236,7 +269,7 @@ private:
             for_each_chunk(spans.count(), parameters_.threads, [&](int s) {
                 int const end = s + 1 < spans.count() ? spans.begin(s + 1) : chunks;
                 for (int c = spans.begin(s); c < end; ++c) {
-                    interactions_.template evaluate<WithEnergy>(store_, c, dt);
+                    interactions_.template evaluate<WithEnergy>(store_, c, before);
                     if (c >= spans.frontier_end(s)) move<WithEnergy>(c, dt, nullptr);
                 }
             });
@@ -247,9 +280,13 @@ private:
             // The slip of a step is that of the motion before it, which was not at velocities given since.
             std::for_each(kicked_.rbegin(), kicked_.rend(), [&](kick& k) { exchange(k); });
             for_each_chunk(chunks, parameters_.threads,
-                           [&](int c) { interactions_.template evaluate<WithEnergy>(store_, c, dt); });
-            if (further_forces) add_further_forces<WithEnergy>(dt, changed);
-            for (auto& k : kicked_) exchange(k);
+                           [&](int c) { interactions_.template evaluate<WithEnergy>(store_, c, before); });
+            if (further_forces) add_further_forces<WithEnergy>(before, changed);
+            for (auto& k : kicked_) {
+                exchange(k);
+                if constexpr (WithEnergy) ledger_.book_work(work_of_kick(k, before));
+            }
+            if (on_time) set_back((before + dt) / 4);
             kicked_.clear();
             for_each_chunk(chunks, parameters_.threads,
                            [&](int c) { move<WithEnergy>(c, dt, further_forces ? &extra_ : nullptr); });
@@ -262,7 +299,7 @@ private:
         if constexpr (WithEnergy) {
             auto pairs = interactions_.energy();
             pairs += wall_energy_;
-            ledger_.template keep<flow_type>(pairs, interactions_.fracture_energy(), reports_, double(dt),
+            ledger_.template keep<flow_type>(pairs, interactions_.fracture_energy(), reports_, double(before), double(dt),
                                              fluid_.get());
         } else {
             ledger_.close();
@@ -278,12 +315,51 @@ private:
         std::size_t particle;
         vec<real, dim> velocity;
         vec<real, rotation_dim<dim>> spin;
+        bool spun; ///< the spin was given, not the velocity
     };
     void exchange(kick& k) {
-        auto const now = kick{k.particle, store_.velocity(k.particle), store_.spin(k.particle)};
+        auto const now = kick{k.particle, store_.velocity(k.particle), store_.spin(k.particle), k.spun};
         store_.set_velocity(k.particle, k.velocity);
         store_.set_spin(k.particle, k.spin);
         k = now;
+    }
+
+    particle_force<real, dim> kept_force(std::size_t id) const {
+        if (!parameters_.keep_pair_forces) throw std::logic_error("simulation: force() needs keep_pair_forces");
+        return total_force(store_, interactions_, extra_, internal(id));
+    }
+
+    void give_velocity(std::size_t k, point const& v) {
+        kicked_.push_back({k, store_.velocity(k), store_.spin(k), false});
+        ledger_.book_work(0.5 * double(store_.mass(k)) * (squared_norm(v) - squared_norm(convert<double>(store_.velocity(k)))));
+        store_.set_velocity(k, convert<real>(v));
+    }
+
+    /// What the ledger's work and kinetic energy of this step, made with the new velocity alone, leave out of a kick.
+    double work_of_kick(kick const& k, real before) const {
+        auto const whole = total_force(store_, interactions_, extra_, k.particle);
+        auto const change = store_.velocity(k.particle) - k.velocity;
+        double work = double(dot(whole.force - store_.applied_force(k.particle), change));
+        auto const turn = (store_.spin(k.particle) - k.spin) * store_.radius(k.particle);
+        for (int axis = 0; axis < rotation_dim<dim>; ++axis) {
+            real const applied = dim == 2 ? store_.loads().at(k.particle, 2)
+                                 : store_.torques().size() > 0 ? store_.torques().at(k.particle, axis) : real(0);
+            work += double((whole.turning[axis] - applied) * turn[axis]);
+        }
+        return 0.5 * double(before) * work;
+    }
+
+    /// Velocities that were given at the time of the positions become those of half a step before.
+    void set_back(real half_a_step) {
+        std::vector<char> done(2 * store_.size(), 0); // velocities, spins
+        auto const once = [&](std::size_t k, bool spin) {
+            if (std::exchange(done[2 * k + spin], char(1))) return;
+            auto const force = total_force(store_, interactions_, extra_, k);
+            spin ? set_spin_back(store_, force, k, half_a_step) : set_velocity_back(store_, force, k, half_a_step);
+        };
+        for (kick const& k : kicked_) once(k.particle, k.spun);
+        for (std::size_t k = 0; step_ == 0 && k < store_.size(); ++k)
+            for (bool const spin : {false, true}) once(k, spin);
     }
 
     template <bool WithEnergy>
@@ -307,6 +383,7 @@ private:
             if (fluid_.remesh(store_, interactions_, step_)) skip_idle_throats();
         } else
             std::fill(extra_.data(), extra_.data() + 4 * extra_.size(), real(0));
+        interactions_.add_moments(store_, extra_);
         if (!walls_.empty()) {
             auto const beyond = walls_.evaluate(store_, dt, parameters_.damping, extra_, wall_energy_);
             if (beyond >= 0)
@@ -321,7 +398,17 @@ private:
             fluid_.skip_idle_throats(store_, interactions_, double(planned_steps_) * *time_step_);
     }
 
-    moment now() const { return {step_, time()}; }
+    /// Before the first step, whose length may not be known yet, the time is that of the start.
+    moment now() const { return {step_, step_ == clock_.step ? clock_.time : time()}; }
+
+    void follow_critical_step() {
+        if (parameters_.time_step > 0) return;
+        double const found = parameters_.safety * limits().critical();
+        // A step that could be a little longer is not worth a change; one that has to be shorter always is.
+        if (!std::isfinite(found) || (found >= *time_step_ && found <= 1.01 * *time_step_)) return;
+        clock_ = {time(), step_, clock_.last};
+        time_step_ = found;
+    }
 
     void collect_events() {
         auto const found = interactions_.collect_events();
@@ -377,7 +464,14 @@ private:
     std::vector<kick> kicked_;
     ledger_keeper<real> ledger_;
     growth_watch<real> growth_;
+    prescribed_motion<dim> motions_;
     mutable std::optional<double> time_step_;
+    /// When the present time step began to apply, and how long the last step was.
+    struct {
+        double time;
+        long long step;
+        double last;
+    } clock_{parameters_.start_time, 0, 0};
     real moved_ = 0, smallest_radius_ = 1;
     long long step_ = 0, planned_steps_ = 0, planned_end_ = 0;
     bool streams_ = true;

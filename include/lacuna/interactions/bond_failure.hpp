@@ -63,6 +63,11 @@ auto fail_bond(particle_store<Real, Dim> const& store, BondEntry const& bond, Bo
         -failure.stored -
         0.5 * double((answer.normal_force - contact.normal_force) * frame.motion.normal_rate * time_step) -
         0.5 * double(dot(answer.shear_force - contact.shear_force, slip));
+    if constexpr (carries_moment<BondLaw>) {
+        auto const turn = frame.turn(i.spin, j.spin, time_step);
+        failure.released -=
+            0.5 * double(dot(answer.bending_moment, turn.bend) + answer.twisting_moment * turn.twist);
+    }
     failure.contact = {bond.i, bond.j, row, -1, contact.history};
     return failure;
 }

@@ -44,4 +44,18 @@ auto first_history(particle_store<Real, Dim> const& store, neighbor_pair const& 
     return Law::template initial<Real, Dim>(start, touching);
 }
 
+/// Of the contacts of one pack, a particle that overlaps its partner by more than a radius, by internal index; else -1.
+template <class Real, int Dim, class Table>
+[[gnu::noinline]] std::int32_t find_deep_overlap(particle_store<Real, Dim> const& store, Table const& contacts,
+                                                 std::size_t pack) {
+    std::int32_t found = -1;
+    for (std::size_t s = pack * Table::width; s < (pack + 1) * Table::width; ++s) {
+        if (contacts.is_filler(s, store.size())) continue;
+        auto const i = std::size_t(contacts.i(s)), j = std::size_t(contacts.j(s));
+        Real const distance = norm(store.position(j) - store.position(i));
+        if (distance < std::max(store.radius(i), store.radius(j))) found = contacts.i(s);
+    }
+    return found;
+}
+
 } // namespace lacuna

@@ -15,6 +15,9 @@ struct interaction_parameters {
     /// touching at zero force, at the distance they have (MODEL.md section 3); 0: every overlap is a force.
     double initial_contact_tolerance = 0;
 
+    /// False: particles pass through each other, bonds apart. What no_contact settles for a model, for one run.
+    bool contacts = true;
+
     void validate(std::string const& name) const {
         require_not_negative(name + ".skin", skin);
         require_in(name + ".initial_contact_tolerance", initial_contact_tolerance, 0, 0.5);

@@ -8,6 +8,7 @@
 
 #include <lacuna/interactions/bond_failure.hpp>
 #include <lacuna/interactions/bond_list.hpp>
+#include <lacuna/interactions/bond_moments.hpp>
 #include <lacuna/interactions/contact_list.hpp>
 #include <lacuna/interactions/force_store.hpp>
 #include <lacuna/interactions/law_stiffness.hpp>
@@ -34,10 +35,12 @@ public:
     static constexpr int chunk_particles = contact_table::chunk_particles;
 
     interactions() = default;
-    /// \throws std::invalid_argument for bonds between unknown, equal or already bonded particles
+    /// \param own values of single bonds: none, or one entry per bond
+    /// \throws std::invalid_argument for bonds between unknown, equal or already bonded particles, and for values that
+    ///         the bond law does not take
     interactions(store_type const& store, std::span<std::array<std::int32_t, 2> const> bonds,
                  std::span<material const> materials, double thickness, interaction_parameters const& parameters,
-                 typename Damping::parameters const& damping)
+                 typename Damping::parameters const& damping, std::span<bond_values const> own = {})
         : parameters_(parameters), damping_(damping), materials_(int(materials.size())) {
         for (auto const& a : materials)
             for (auto const& b : materials) {
@@ -47,6 +50,7 @@ public:
         Real gap = 0;
         bond_entries_ = make_bonds<BondLaw, bond_entry>(
             store, bonds, [&](std::int32_t i, std::int32_t j) { return parameter_row(store, i, j); }, gap);
+        if (!own.empty()) give_own_rows(store, bond_entries_, own, bond_parameters_);
         for (auto const& pair : bonds) bond_records_.push_back({pair});
         double mean = 0, largest = 0;
         for (Real const r : store.radii()) {
@@ -55,7 +59,7 @@ public:
         }
         gap = std::max(gap, Real(parameters.initial_contact_tolerance * largest));
         neighbors_ = verlet_list<Search>({Real(parameters.skin * mean), gap});
-        if constexpr (!is_absent<ContactLaw>) neighbors_.build(store.positions(), store.radii());
+        if (has_contacts()) neighbors_.build(store.positions(), store.radii());
         rebuild_tables(store, true);
     }
 
@@ -65,7 +69,7 @@ public:
     /// \return whether the tables have changed
     bool update(store_type const& store, Real moved) {
         bool sought = false;
-        if constexpr (!is_absent<ContactLaw>) {
+        if (has_contacts()) {
             path_ += moved;
             if (!(path_ <= neighbors_.settings().skin / 2)) {
                 // The sum of the largest steps over-estimates every path: measure before searching.
@@ -103,18 +107,30 @@ public:
         if constexpr (!is_absent<BondLaw>)
             evaluate_chunk<pair_kind::bond, WithEnergy, BondLaw, Damping>(
                 bonds_, chunk, bond_parameters_, damping_, store, time_step, forces_.template begin<0>(bonds_, chunk),
-                forces_.template places<0>(bonds_, chunk), energy[0],
+                forces_.template places<0>(bonds_, chunk), moments_.data(), energy[0],
                 [&](std::size_t pack) { break_bonds(store, chunk, pack, time_step); });
         if constexpr (!is_absent<ContactLaw>)
             evaluate_chunk<pair_kind::contact, WithEnergy, ContactLaw, Damping>(
                 contacts_, chunk, contact_parameters_, damping_, store, time_step, forces_.template begin<1>(contacts_, chunk),
-                forces_.template places<1>(contacts_, chunk), energy[1],
-                [&](std::size_t pack) { note_deep_overlap(store, chunk, pack); });
+                forces_.template places<1>(contacts_, chunk), static_cast<Real*>(nullptr), energy[1],
+                [&](std::size_t pack) {
+                    if (auto const k = find_deep_overlap(store, contacts_, pack); k >= 0) deep_overlap_[std::size_t(chunk)] = k;
+                });
     }
     /// \copydoc force_store::with_sums
     template <class Use>
     void with_forces_on(int chunk, Use const& use) const {
         forces_.with_sums(chunk, use);
+    }
+
+    /// Adds the moments that bonds have exerted in the last evaluation; see lacuna::add_moments().
+    void add_moments([[maybe_unused]] store_type const& store, [[maybe_unused]] record_column<Real>& out) const noexcept {
+        if constexpr (carries_moment<BondLaw>) lacuna::add_moments(store, bonds_, moments_, out);
+    }
+    /// Calls visit(i, j, normal, moment_stiffness) for every bond that carries moments.
+    template <class Visit>
+    void for_each_moment_stiffness([[maybe_unused]] store_type const& store, [[maybe_unused]] Visit const& visit) const {
+        if constexpr (carries_moment<BondLaw>) visit_moment_stiffness<BondLaw>(store, bonds_, bond_parameters_, visit);
     }
 
     /// Failures of the step just evaluated, in the order of the pairs; to be completed with step and time.
@@ -190,6 +206,7 @@ private:
     using bond_entry = typename bond_table::entry;
     using pending_event = bond_failure<contact_entry, Dim>;
 
+    bool has_contacts() const noexcept { return !is_absent<ContactLaw> && parameters_.contacts; }
     std::int32_t parameter_row(store_type const& store, std::int32_t i, std::int32_t j) const noexcept {
         return store.material(std::size_t(i)) * materials_ + store.material(std::size_t(j));
     }
@@ -214,6 +231,7 @@ private:
         }
         if (bonds_change) {
             bonds_.assign(bond_entries_, store.size(), store.ghost(0), store.ghost(1));
+            if constexpr (carries_moment<BondLaw>) moments_.resize(bonds_.slots() * rotation_dim<Dim>);
             number_bonds(bond_records_, bonds_, store.size());
         }
         broken_.clear();
@@ -245,18 +263,10 @@ private:
                 contact_parameters_.row[std::size_t(row)], row, time_step,
                 forces_.template of<0>(chunk, s));
             if (!failed) continue;
+            if constexpr (carries_moment<BondLaw>)
+                std::fill_n(moments_.begin() + std::ptrdiff_t(s * rotation_dim<Dim>), rotation_dim<Dim>, Real(0));
             energy_[std::size_t(chunk)][2] += {failed->stored, 0, 0, -failed->event.energy};
             chunk_events_[std::size_t(chunk)].push_back(*failed);
-        }
-    }
-
-    [[gnu::noinline]] void note_deep_overlap(store_type const& store, int chunk, std::size_t pack) {
-        for (std::size_t s = pack * contact_table::width; s < (pack + 1) * contact_table::width; ++s) {
-            if (contacts_.is_filler(s, store.size())) continue;
-            auto const i = std::size_t(contacts_.i(s)), j = std::size_t(contacts_.j(s));
-            Real const distance = norm(store.position(j) - store.position(i));
-            if (distance < std::max(store.radius(i), store.radius(j)))
-                deep_overlap_[std::size_t(chunk)] = contacts_.i(s);
         }
     }
 
@@ -270,6 +280,7 @@ private:
     bond_table bonds_;
     contact_table contacts_;
     force_store<Real, Dim> forces_;
+    std::vector<Real> moments_; ///< on the first of each bond, by slot; bond laws with moments only
     std::vector<bond_record> bond_records_;
     std::vector<bond_entry> bond_entries_;
     std::vector<contact_entry> old_contacts_, new_contacts_, broken_;

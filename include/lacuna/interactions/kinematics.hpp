@@ -50,6 +50,25 @@ struct pair_frame {
         else
             return cross(normal, shear_force) * lever;
     }
+    /// Moment on body i (body j gets the opposite), N m.
+    template <class Response>
+    vec<T, rotation_dim<Dim>> moment(Response const& answer) const {
+        if constexpr (Dim == 2)
+            return answer.bending_moment;
+        else
+            return answer.bending_moment + normal * answer.twisting_moment;
+    }
+    /// How the bodies turned against each other, from their spins (rad/s).
+    pair_turn<T, Dim> turn(vec<T, rotation_dim<Dim>> const& spin_i, vec<T, rotation_dim<Dim>> const& spin_j,
+                           T const& time_step) const {
+        auto turned = (spin_j - spin_i) * time_step;
+        if constexpr (Dim == 2) {
+            return {turned, T(0)};
+        } else {
+            T about = dot(normal, turned);
+            return {turned - normal * about, about};
+        }
+    }
     /// A stored shear force, turned with the pair: by the change of its normal and by the mean spin about it.
     shear turned(shear const& stored) const {
         if constexpr (Dim == 2) {

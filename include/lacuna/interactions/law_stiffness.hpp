@@ -18,7 +18,8 @@ struct pair_stiffness {
 
 /// Tangent of a law by its own dual-number derivatives, at the given distance and without slip.
 ///
-/// A contact that is open is read as if it just touched, because it may close before the next look. Coupling
+/// A contact that is open is read as if it just touched, or overlapped as much as its law expects, because it may
+/// close before the next look. Coupling
 /// between normal and shear enters both, which makes the diagonal pair an upper bound of the full tangent.
 /// \param bonded the pair was made at this distance, without force (a bond); else it touches at r_i + r_j
 template <class Law, int Dim, class Real>
@@ -26,7 +27,10 @@ pair_stiffness law_stiffness(typename Law::template parameters<Real> const& para
                              double radius_i, double radius_j, bool bonded) {
     using number = dual<double, 2>;
     double const touching = radius_i + radius_j;
-    double const at = bonded ? distance : std::min(distance, touching * (1 - 1e-6));
+    double const smaller = radius_j > 0 ? std::min(radius_i, radius_j) : radius_i;
+    double overlap = touching * 1e-6;
+    if constexpr (requires { Law::expected_overlap; }) overlap = std::max(overlap, smaller * Law::expected_overlap);
+    double const at = bonded ? distance : std::min(distance, touching - overlap);
     pair_motion<number, Dim> motion{};
     motion.distance = number::variable(at, 0);
     motion.radius_i = number(radius_i);

@@ -6,6 +6,7 @@
 #include <lacuna/interactions/force_places.hpp>
 #include <lacuna/interactions/kinematics.hpp>
 #include <lacuna/interactions/pair_table.hpp>
+#include <lacuna/laws/damping.hpp>
 #include <lacuna/particles/store.hpp>
 
 namespace lacuna {
@@ -99,6 +100,17 @@ relative_state<Lanes, Dim> load_relative(particle_store<Real, Dim> const& store,
     }
     return s;
 }
+/// The spin of one partner of each pair of a pack, rad/s.
+template <class Lanes, class Real, int Dim>
+vec<Lanes, rotation_dim<Dim>> load_spin(particle_store<Real, Dim> const& store, std::uint32_t const* who,
+                                        Lanes const& radius) noexcept {
+    auto const& speeds = Dim == 2 ? store.velocities() : store.surface_speeds();
+    auto speed = load_turned<Real, Lanes::width>(speeds.data(), who);
+    if constexpr (Dim == 2)
+        return {{speed[2] / radius}};
+    else
+        return {{speed[0] / radius, speed[1] / radius, speed[2] / radius}};
+}
 /// One body of a store, as plain numbers.
 template <class Real, int Dim>
 body<Real, Dim> load_body(particle_store<Real, Dim> const& store, std::size_t k) noexcept {
@@ -129,6 +141,21 @@ void store_pair_forces(Real* to, vec<Lanes, Dim> const& force, vec<Lanes, rotati
     }
 }
 
+/// A law's answer to the motion of one pack of pairs; a law with moments also sees how the pair bends.
+template <class Law, class Lanes, class Real, int Dim, class Parameters, class State>
+auto answer_of(Parameters const& law, pair_frame<Lanes, Dim> const& frame, State const& state,
+               [[maybe_unused]] relative_state<Lanes, Dim> const& pair,
+               [[maybe_unused]] particle_store<Real, Dim> const& store, [[maybe_unused]] std::uint32_t const* i,
+               [[maybe_unused]] std::uint32_t const* j, [[maybe_unused]] Lanes const& time_step) noexcept {
+    if constexpr (carries_moment<Law>)
+        return Law::evaluate(law, frame.motion,
+                             frame.turn(load_spin<Lanes>(store, i, pair.radius_i), load_spin<Lanes>(store, j, pair.radius_j),
+                                        time_step),
+                             state);
+    else
+        return Law::evaluate(law, frame.motion, state);
+}
+
 /// How the pair loop treats one law.
 enum class pair_kind { contact, bond };
 
@@ -138,6 +165,7 @@ enum class pair_kind { contact, bond };
 /// \tparam WithEnergy also sums up energies (the sums cost time, so they are only made when something asks)
 /// \param forces where the chunk's places begin
 /// \param places how many there are, and which is the first pack's; only `kept` and `first` are read
+/// \param moments where the moments on the first of each pair go, rotation_dim numbers a slot; laws with moments only
 /// \param on_event called as on_event(pack) after a pack in which a bond has failed, or two particles overlap by
 ///        more than a radius; rare
 template <pair_kind Kind, bool WithEnergy, class Law, class Damping, class Real, int Dim, class OnEvent>
@@ -145,7 +173,8 @@ template <pair_kind Kind, bool WithEnergy, class Law, class Damping, class Real,
                                       parameter_table<Law, Real> const& parameters,
                                       typename Damping::parameters const& damping,
                                       particle_store<Real, Dim> const& store, Real time_step, Real* forces,
-                                      force_places::row const& places, pair_energy& energy, OnEvent const& on_event) {
+                                      force_places::row const& places,
+                                      [[maybe_unused]] Real* moments, pair_energy& energy, OnEvent const& on_event) {
     using lanes = typename pair_table<Law, Real, Dim>::lanes;
     constexpr int W = lanes::width;
     constexpr std::size_t stride = 4 * pair_forces<Real, Dim>::records_per_pair;
@@ -161,11 +190,12 @@ template <pair_kind Kind, bool WithEnergy, class Law, class Damping, class Real,
         auto frame = relative_motion(pair, dt);
         auto state = states.load(p);
         if constexpr (Dim == 3) state.shear_force = frame.turned(state.shear_force);
+        if constexpr (Dim == 3 && carries_moment<Law>) state.bending_moment = frame.turned(state.bending_moment);
         if (std::int32_t const row = table.uniform_parameter(p); row != loaded || row < 0) {
             parameters.template load<lanes>(law, row, table.parameter() + slot);
             loaded = row;
         }
-        auto answer = Law::evaluate(law, frame.motion, state);
+        auto answer = answer_of<Law>(law, frame, state, pair, store, table.i_records() + slot, table.j_records() + slot, dt);
         auto normal = answer.normal_force;
         if constexpr (Damping::acts_on_pairs) {
             lanes mass_i, mass_j;
@@ -173,8 +203,11 @@ template <pair_kind Kind, bool WithEnergy, class Law, class Damping, class Real,
                 mass_i.v[k] = store.masses()[table.i(slot + std::size_t(k))];
                 mass_j.v[k] = store.masses()[table.j(slot + std::size_t(k))];
             }
-            auto drag = Damping::pair_force(damping, Law::stiffness(law), mass_i, mass_j, frame.motion.normal_rate);
-            if constexpr (Kind == pair_kind::contact)
+            auto drag = Damping::pair_force(damping, dashpot_stiffness<Law>(law, frame.motion, state), mass_i, mass_j,
+                                            frame.motion.normal_rate);
+            if constexpr (Kind == pair_kind::contact && dashpot_pulls<Damping>)
+                normal = select(normal < lanes(Real(0)), normal + drag, normal);
+            else if constexpr (Kind == pair_kind::contact)
                 normal = select(normal < lanes(Real(0)), min(normal + drag, lanes(Real(0))), normal);
             else
                 normal = normal + drag;
@@ -184,6 +217,12 @@ template <pair_kind Kind, bool WithEnergy, class Law, class Damping, class Real,
         store_pair_forces<Real, Dim>(forces + stride * W * place, frame.force(normal, answer.shear_force),
                                      frame.torque_per_radius(answer.shear_force), normal);
         if (++place == kept) place = 0;
+        if constexpr (carries_moment<Law>) {
+            auto moment = frame.moment(answer);
+            for (int k = 0; k < W; ++k)
+                for (int axis = 0; axis < rotation_dim<Dim>; ++axis)
+                    moments[(slot + std::size_t(k)) * rotation_dim<Dim> + std::size_t(axis)] = moment[axis][k];
+        }
         if constexpr (WithEnergy) {
             stored += answer.stored_energy;
             dissipated += answer.dissipated_energy;

@@ -93,9 +93,10 @@ public:
             Real normal_force = answer.normal_force;
             if constexpr (Damping::acts_on_pairs) {
                 // A wall has no mass of its own to share the motion: the effective mass is the particle's.
-                Real const drag = Damping::pair_force(damping, ContactLaw::stiffness(law), 2 * i.mass, 2 * i.mass,
-                                                      frame.motion.normal_rate);
-                if (normal_force < 0) normal_force = std::min(normal_force + drag, Real(0));
+                Real const drag = Damping::pair_force(damping, dashpot_stiffness<ContactLaw>(law, frame.motion, n.state),
+                                                      2 * i.mass, 2 * i.mass, frame.motion.normal_rate);
+                if (normal_force < 0)
+                    normal_force = dashpot_pulls<Damping> ? normal_force + drag : std::min(normal_force + drag, Real(0));
                 energy.damped += double((normal_force - answer.normal_force) * frame.motion.normal_rate * time_step);
             }
             n.state = answer.history;

@@ -5,6 +5,7 @@
 #include <string>
 
 #include <lacuna/core/error.hpp>
+#include <lacuna/laws/bond_values.hpp>
 #include <lacuna/laws/pair_motion.hpp>
 
 namespace lacuna {
@@ -92,6 +93,21 @@ struct brittle_spring_bond_with {
                 weaker(a.tensile_strength, b.tensile_strength),
                 weaker(a.shear_strength, b.shear_strength),
                 thickness};
+    }
+
+    /// The parameters of a bond with values of its own.
+    /// \throws std::invalid_argument for a stiffness against bending, which these springs do not have
+    template <int Dim>
+    static parameters<double> with_values(parameters<double> p, bond_values const& own, double radius_i, double radius_j) {
+        if (own.bending_stiffness) refuse("bending_stiffness", *own.bending_stiffness, "left out: the bond law has none");
+        double const area = Area::template area<Dim>(radius_i, radius_j, p.thickness);
+        p.normal_stiffness = own.normal_stiffness.value_or(p.normal_stiffness);
+        p.normal_compliance = 1 / p.normal_stiffness;
+        p.shear_stiffness = own.shear_stiffness.value_or(p.shear_stiffness);
+        p.shear_compliance = p.shear_stiffness > 0 ? 1 / p.shear_stiffness : 0.0;
+        if (own.tensile_force) p.tensile_strength = min(*own.tensile_force / area, 1e30);
+        if (own.shear_force) p.shear_strength = min(*own.shear_force / area, 1e30);
+        return p;
     }
 
     /// A bond made at `distance`, without force.

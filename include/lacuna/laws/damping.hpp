@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cmath>
 #include <concepts>
+#include <numbers>
 #include <string>
 
 #include <lacuna/core/error.hpp>
@@ -10,7 +12,8 @@
 /// \file
 /// Damping policies. Each has `parameters` and two formulas over a scalar type:
 ///   pair_force(p, stiffness, mass_i, mass_j, normal_rate): force along the normal, positive in tension, N;
-///   particle_force(p, force, velocity): what is added to one component of a particle's force (or torque).
+///   particle_force(p, force, velocity): what is added to one component of a particle's force (or torque); with
+///     `needs_inertia` also particle_force(p, force, velocity, inertia), and drag_rate(p): the drag over momentum, 1/s.
 
 namespace lacuna {
 
@@ -71,6 +74,77 @@ struct viscous_damping {
         return T(0);
     }
 };
+
+/// Dashpot along the normal that gives every collision the same coefficient of restitution e: the dashpot of
+/// viscous_damping with ratio -ln e / sqrt(ln^2 e + pi^2), which acts, and may pull, until the overlap has gone
+/// (restitution of reference case 1b "zero overlap"; Hertzian contacts: see hertz_mindlin).
+struct restitution_damping {
+    struct parameters {
+        double restitution = 1; ///< e, above 0 and at most 1
+        double ratio = 0;       ///< of critical damping, from e: see with_restitution()
+        void validate(std::string const& name) const {
+            if (!(restitution > 0 && restitution <= 1)) refuse(name + ".restitution", restitution, "> 0 and <= 1");
+            if (!(std::fabs(ratio - ratio_of(restitution)) <= 1e-12))
+                refuse(name + ".ratio", ratio, "that of the restitution: use with_restitution()");
+        }
+    };
+    static constexpr bool acts_on_pairs = true;
+    static constexpr bool acts_on_particles = false;
+    static constexpr bool pulls = true;
+    static parameters with_restitution(double e) { return {e, ratio_of(e)}; }
+    template <class T>
+    static T pair_force(parameters const& p, T const& stiffness, T const& mass_i, T const& mass_j,
+                        T const& normal_rate) {
+        return viscous_damping::pair_force({p.ratio}, stiffness, mass_i, mass_j, normal_rate);
+    }
+    template <class T>
+    static T particle_force(parameters const&, T const&, T const&) {
+        return T(0);
+    }
+
+private:
+    static double ratio_of(double e) {
+        double const l = std::log(e);
+        return -l / std::sqrt(l * l + std::numbers::pi * std::numbers::pi);
+    }
+};
+
+/// Local damping, a drag proportional to mass and velocity (and to moment of inertia and spin), and dashpots, together.
+struct combined_damping {
+    struct parameters {
+        double local = 0;   ///< factor of local_damping, 0 to 1
+        double mass = 0;    ///< drag over momentum, 1/s, >= 0
+        double viscous = 0; ///< ratio of viscous_damping, >= 0
+        void validate(std::string const& name) const {
+            require_in(name + ".local", local, 0, 1);
+            require_not_negative(name + ".mass", mass);
+            require_not_negative(name + ".viscous", viscous);
+        }
+    };
+    static constexpr bool acts_on_pairs = true;
+    static constexpr bool acts_on_particles = true;
+    static constexpr bool needs_inertia = true;
+    /// Rate at which a free particle loses momentum, 1/s.
+    static double drag_rate(parameters const& p) { return p.mass; }
+    template <class T>
+    static T pair_force(parameters const& p, T const& stiffness, T const& mass_i, T const& mass_j,
+                        T const& normal_rate) {
+        return viscous_damping::pair_force({p.viscous}, stiffness, mass_i, mass_j, normal_rate);
+    }
+    /// The part that does not depend on the inertia.
+    template <class T>
+    static T particle_force(parameters const& p, T const& force, T const& velocity) {
+        return local_damping::particle_force({p.local}, force, velocity);
+    }
+    template <class T>
+    static T particle_force(parameters const& p, T const& force, T const& velocity, T const& inertia) {
+        return particle_force(p, force, velocity) - T(value_t<T>(p.mass)) * inertia * velocity;
+    }
+};
+
+/// Whether a dashpot may pull at a contact that opens.
+template <class Policy>
+inline constexpr bool dashpot_pulls = requires { requires Policy::pulls; };
 
 template <class Policy>
 concept damping_policy = requires(typename Policy::parameters const& p) {

@@ -23,6 +23,13 @@ struct pair_motion {
     T touching_distance() const noexcept { return radius_i + radius_j; }
 };
 
+/// How the bodies of a pair turned against each other over one time step: what bonds with moments read.
+template <class T, int Dim>
+struct pair_turn {
+    vec<T, rotation_dim<Dim>> bend; ///< turn of j less turn of i; in space its part across the normal, rad
+    T twist;                        ///< in space its part about the normal, in the plane 0, rad
+};
+
 /// What a law answers. H is the law's history.
 template <class T, int Dim, class H>
 struct pair_response {
@@ -40,6 +47,37 @@ struct bond_response : pair_response<T, Dim, H> {
     mask_t<T> broken_in_tension; ///< meaningful where broken: by tension (else by shear)
 };
 
+/// The answer of a bond that also carries moments.
+template <class T, int Dim, class H>
+struct moment_response : bond_response<T, Dim, H> {
+    vec<T, rotation_dim<Dim>> bending_moment; ///< on i, and the opposite on j; in space across the normal, N m
+    T twisting_moment;                        ///< in space, on i about the normal, N m
+};
+
+/// Stiffness of a bond against bending and twisting, N m/rad.
+template <class T>
+struct moment_stiffness {
+    T bending, twisting;
+};
+
+/// Whether a bond law carries moments. It has then
+///   - `static constexpr bool carries_moment = true` and in its history `bending_moment`, which turns with the pair;
+///   - `evaluate(parameters, pair_motion, pair_turn, history) -> moment_response` beside the form without a turn;
+///   - `against_turning<Dim>(parameters, radius_i, radius_j) -> moment_stiffness`.
+template <class Law>
+inline constexpr bool carries_moment = requires { requires Law::carries_moment; };
+
+/// Normal stiffness in N/m by which a dashpot of a given ratio of critical damping is measured: of a law whose
+/// stiffness changes with the overlap in the present state, by `stiffness(parameters, pair_motion, history)`, else
+/// the law's constant.
+template <class Law, class P, class M, class H>
+auto dashpot_stiffness(P const& parameters, [[maybe_unused]] M const& motion, [[maybe_unused]] H const& history) {
+    if constexpr (requires { Law::stiffness(parameters, motion, history); })
+        return Law::stiffness(parameters, motion, history);
+    else
+        return Law::stiffness(parameters);
+}
+
 namespace detail {
 template <class Law, int Dim>
 concept pair_law_common =
@@ -49,7 +87,7 @@ concept pair_law_common =
         { Law::combine(material, material, 1.0) } -> std::same_as<typename Law::template parameters<double>>;
         { Law::template initial<double, Dim>(1.0, 1.0) } -> std::same_as<typename Law::template history<double, Dim>>;
         { Law::evaluate(parameters, motion, history).normal_force } -> std::convertible_to<double>;
-        { Law::stiffness(parameters) } -> std::convertible_to<double>;
+        { dashpot_stiffness<Law>(parameters, motion, history) } -> std::convertible_to<double>;
     };
 } // namespace detail
 
@@ -59,7 +97,7 @@ concept pair_law_common =
 ///   - `history<T, Dim>`: an aggregate of T (and vec of T) only; a member `shear_force` turns with the pair;
 ///     `initial<T, Dim>(distance, touching_distance)` is its state at zero force;
 ///   - `evaluate(parameters<T>, pair_motion<T, Dim>, history<T, Dim>) -> pair_response`: the formula;
-///   - `stiffness(parameters)`: normal stiffness in N/m, for the viscous damping coefficient.
+///   - `stiffness(parameters)` or `stiffness(parameters, pair_motion, history)`: see dashpot_stiffness().
 template <class Law, int Dim>
 concept contact_law = detail::pair_law_common<Law, Dim> && requires(
     typename Law::template parameters<double> const& parameters, pair_motion<double, Dim> const& motion,

@@ -11,12 +11,13 @@
 
 namespace lacuna {
 
-/// Forces from outside: gravity, which is always there, and on single particles a force and (2D) a torque that
-/// rise linearly from zero within a ramp time, or are there at once.
+/// Forces from outside: gravity, which is always there, and on single particles a force and a torque that rise
+/// linearly from zero within a ramp time, or are there at once.
 template <class Real, int Dim>
 class load_set {
 public:
     using point = vec<double, Dim>;
+    using rotation = vec<double, rotation_dim<Dim>>;
 
     load_set() = default;
     explicit load_set(point const& gravity, std::size_t particles) : gravity_(gravity), load_(particles) {}
@@ -24,14 +25,14 @@ public:
     /// Replaces the load on one particle.
     /// \param k internal index
     /// \param force N
-    /// \param torque N m, 2D
+    /// \param torque N m
     /// \param ramp_time s, from `now` on; 0: at once
     /// \throws std::invalid_argument naming the particle
-    void set(particle_store<Real, Dim>& store, std::size_t k, point const& force, double torque, double ramp_time,
-             double now) {
+    void set(particle_store<Real, Dim>& store, std::size_t k, point const& force, rotation const& torque,
+             double ramp_time, double now) {
         std::string const name = "load on particle " + std::to_string(store.id(k));
         for (int axis = 0; axis < Dim; ++axis) require_finite(name + ".force", force[axis]);
-        require_finite(name + ".torque", torque);
+        for (int axis = 0; axis < rotation_dim<Dim>; ++axis) require_finite(name + ".torque", torque[axis]);
         require_not_negative(name + ".ramp_time", ramp_time);
         load_[k] = {force, torque, now, ramp_time};
         bool const listed = std::find(rising_.begin(), rising_.end(), k) != rising_.end();
@@ -59,7 +60,8 @@ public:
 private:
     struct one_load {
         point force{};
-        double torque = 0, start = 0, ramp_time = 0;
+        rotation torque{};
+        double start = 0, ramp_time = 0;
     };
 
     void put(particle_store<Real, Dim>& store, std::size_t k, double time) const {
@@ -70,7 +72,10 @@ private:
         for (int axis = 0; axis < Dim; ++axis)
             total[axis] = Real(share * l.force[axis] + double(store.mass(k)) * gravity_[axis]);
         store.set_applied_force(k, total);
-        if constexpr (Dim == 2) store.set_applied_torque(k, Real(share * l.torque));
+        if constexpr (Dim == 2)
+            store.set_applied_torque(k, Real(share * l.torque[0]));
+        else if (squared_norm(l.torque) > 0 || store.torques().size() > 0)
+            store.set_applied_torque(k, convert<Real>(l.torque * share));
     }
 
     point gravity_{};

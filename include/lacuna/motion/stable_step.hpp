@@ -53,6 +53,18 @@ public:
                 a == 0 ? normal_stiffness : shear_stiffness);
     }
 
+    /// Springs against the turn of two particles against each other: across the normal, and about it. N m/rad.
+    void add_turning(std::size_t i, std::size_t j, point const& normal, double bending, double twisting) {
+        std::array<std::size_t, 2> const who{i, j};
+        auto const axes = frame(normal);
+        for (int a = Dim == 2 ? 1 : 0; a < Dim; ++a) {
+            gradient g{}, opposite{};
+            for (int x = 0; x < turns; ++x) g[std::size_t(Dim + x)] = Dim == 2 ? 1 : axes[std::size_t(a)][x];
+            for (int x = Dim; x < freedoms; ++x) opposite[std::size_t(x)] = -g[std::size_t(x)];
+            add(who, std::array{g, opposite}, a == 0 ? twisting : bending);
+        }
+    }
+
     /// Energy 1/2 stiffness (sum over particles g . displacement)^2: a pore that resists a change of volume.
     template <std::size_t Count>
     void add(std::array<std::size_t, Count> const& who, std::array<gradient, Count> const& g, double stiffness) {
@@ -100,9 +112,10 @@ public:
     /// of the largest eigenvalues of the mass-scaled K and C.
     /// \param dashpots the damping coefficients, in N s/m, added in place of stiffnesses
     /// \param force_factor by how much damping can enlarge a force: 1 + alpha with local damping
-    double time_step(frequency_bound const& dashpots, double force_factor) const {
+    /// \param drag_rate of a drag proportional to mass and velocity, 1/s
+    double time_step(frequency_bound const& dashpots, double force_factor, double drag_rate = 0) const {
         double const stiff = frequency(), viscous = dashpots.frequency();
-        double const a = force_factor * stiff * stiff, b = force_factor * viscous * viscous;
+        double const a = force_factor * stiff * stiff, b = force_factor * (viscous * viscous + drag_rate);
         return 4 / (b + std::sqrt(b * b + 4 * a));
     }
 

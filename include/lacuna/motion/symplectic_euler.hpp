@@ -42,6 +42,7 @@ struct symplectic_euler {
         path.v[3] = 0;
         rec fastest(Real(0)), poison(Real(0));
         bool const loaded = store.loaded(first);
+        [[maybe_unused]] bool const torqued = store.torques().size() > 0;
         for (int k = 0; k < count; ++k) {
             std::size_t const p = first + std::size_t(k);
             rec place = store.place()[p];
@@ -51,7 +52,7 @@ struct symplectic_euler {
             if constexpr (Dim == 2) {
                 rec force = pair_force(k) + load;
                 if (extra) force += (*extra)[p];
-                rec drag = Damping::particle_force(damping, force, velocity);
+                rec drag = damping_force<Damping>(damping, force, velocity, [&] { return store.inverse_mass(p); });
                 if constexpr (Damping::acts_on_particles) force += drag;
                 rec next = velocity + force * store.inverse_mass(p) * dt;
                 store.velocities().set(p, next);
@@ -63,17 +64,19 @@ struct symplectic_euler {
             } else {
                 auto [force, torque] = pair_force(k);
                 force += load;
+                rec turning(Real(0));
+                if (torqued) torque += turning = store.torques()[p];
                 if (extra) {
                     force += (*extra)[2 * p];
                     torque += (*extra)[2 * p + 1];
                 }
-                rec drag = Damping::particle_force(damping, force, velocity);
+                rec drag = damping_force<Damping>(damping, force, velocity, [&] { return store.inverse_mass(p); });
                 if constexpr (Damping::acts_on_particles) force += drag;
                 rec next = velocity + force * store.inverse_mass(p) * dt;
                 store.velocities().set(p, next);
                 store.place().set(p, place + next * path);
                 rec spin = store.surface_speeds()[p];
-                rec brake = Damping::particle_force(damping, torque, spin);
+                rec brake = damping_force<Damping>(damping, torque, spin, [&] { return store.inverse_rotary(p); });
                 if constexpr (Damping::acts_on_particles) torque += brake;
                 rec turned = spin + torque * store.inverse_rotary(p) * dt;
                 store.surface_speeds().set(p, turned);
@@ -84,7 +87,7 @@ struct symplectic_euler {
                     add_energy(store, p, velocity, next, load, force, drag, report);
                     for (int axis = 0; axis < 3; ++axis)
                         add_freedom(surface_inertia(store, p), store.mobility(p, 3) == Real(0), spin[axis],
-                                    turned[axis], 0.0, torque[axis], brake[axis], true, report);
+                                    turned[axis], double(turning[axis]), torque[axis], brake[axis], true, report);
                 }
             }
         }
@@ -93,6 +96,19 @@ struct symplectic_euler {
     }
 
 private:
+    /// \param inverse_inertia callable () -> record; 0 where held
+    template <class Damping, class Real, class Inverse>
+    static record<Real> damping_force(typename Damping::parameters const& damping, record<Real> const& force,
+                                      record<Real> const& velocity, [[maybe_unused]] Inverse const& inverse_inertia) {
+        if constexpr (requires { requires Damping::needs_inertia; }) {
+            record<Real> inverse = inverse_inertia(), zero(Real(0)), one(Real(1));
+            auto free = inverse > zero;
+            return Damping::particle_force(damping, force, velocity, select(free, one / select(free, inverse, one), zero));
+        } else {
+            return Damping::particle_force(damping, force, velocity);
+        }
+    }
+
     /// Eq. 8 in space: the unit quaternion turned by spin * dt, renormalised.
     template <class Real>
     static record<Real> turn(record<Real> const& q, record<Real> const& w, Real time_step) {

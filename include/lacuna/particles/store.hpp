@@ -165,6 +165,13 @@ public:
         load_.at(k, 2) = torque / radius_[k];
         loaded_[k / load_block] = 1;
     }
+    /// Torque applied from outside, N m.
+    void set_applied_torque(std::size_t k, point const& torque)
+        requires(Dim == 3)
+    {
+        if (torque_.size() == 0) torque_.resize(size());
+        set_head(torque_, k, torque / radius_[k]);
+    }
     /// Prescribes the motion along the given axes: there the particle keeps the velocity it has or is given.
     void fix(std::size_t k, fixed_axes const& axes) noexcept {
         unsigned const held = (axes.x ? 1u : 0u) | (axes.y ? 2u : 0u) | (Dim == 3 && axes.z ? 4u : 0u) |
@@ -196,6 +203,8 @@ public:
     rec inverse_mass(std::size_t k) const noexcept { return moving_[free_[k]] * rec(inverse_mass_[k]); }
     /// 3D: from torque over radius to acceleration of the surface, r^2 / I, 1/kg.
     rec inverse_rotary(std::size_t k) const noexcept { return turning_[free_[k]] * rec(inverse_mass_[k]); }
+    /// 3D: torques from outside over radius, N; empty while there are none. In 2D lane 2 of loads().
+    record_column<Real> const& torques() const noexcept { return torque_; }
     /// Masses, those of the ghosts included, kg.
     Real const* masses() const noexcept { return mass_.data(); }
     /// Internal index of the two partners that fill incomplete packs of pairs.
@@ -234,7 +243,7 @@ private:
     std::vector<std::uint8_t> free_, loaded_;
     /// Which components of a force, and of a torque over radius, move a particle: a record for each pattern of free_.
     record_column<Real> moving_ = record_column<Real>(free_patterns), turning_ = record_column<Real>(free_patterns);
-    record_column<Real> place_, velocity_, surface_speed_, quaternion_, load_;
+    record_column<Real> place_, velocity_, surface_speed_, quaternion_, load_, torque_;
 };
 
 } // namespace lacuna

@@ -136,7 +136,10 @@ public:
     template <class Archive>
     void serialize(Archive& ar) {
         ar(network_, ledger_, feed_);
-        if constexpr (Archive::is_loading::value) throats_.collect_active(network_);
+        if constexpr (Archive::is_loading::value) {
+            throats_.collect_active(network_);
+            clusters_.build(network_, parameters_.merge_conductance);
+        }
     }
 
 protected:

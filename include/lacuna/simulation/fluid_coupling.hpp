@@ -85,6 +85,7 @@ public:
         bool filled = flow_.has_value();
         ar(filled);
         require_state(filled == flow_.has_value(), "its pores are filled and these are not, or the other way round");
+        require_state(!remesher_.on(), "its pores may be triangulated anew: such a run cannot be resumed");
         if (filled) ar(*flow_);
     }
 

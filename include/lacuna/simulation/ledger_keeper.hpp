@@ -32,10 +32,11 @@ public:
     /// Enters one step. Work is booked in halves: with the force before and the force after each displacement.
     /// \param pairs of bonds, contacts and walls
     /// \param fracture taken out by bonds that failed in this step in tension, in shear, J
+    /// \param before, dt length of the step before and of this one, s
     /// \param flow nullptr without fluid
     template <class Flow>
     void keep(pair_energy const& pairs, std::array<double, 2> const& fracture,
-              std::span<motion_report<Real> const> reports, double dt, Flow const* flow) {
+              std::span<motion_report<Real> const> reports, double before, double dt, Flow const* flow) {
         motion_report<Real> total;
         for (auto const& r : reports) {
             total.kinetic += r.kinetic;
@@ -62,11 +63,11 @@ public:
             ledger_.initial = ledger_.kinetic + ledger_.strain + ledger_.fluid_storage;
         } else {
             ledger_.friction += pairs.dissipated;
-            ledger_.damping += pairs.damped + damping_ahead_ - 0.5 * dt * total.damping_before;
+            ledger_.damping += pairs.damped + damping_ahead_ - 0.5 * before * total.damping_before;
             ledger_.fracture += fracture[0] + fracture[1];
             ledger_.shear_fracture += fracture[1];
-            ledger_.external = work_ahead_ + 0.5 * dt * total.load_before;
-            ledger_.prescribed = held_ahead_ + 0.5 * dt * total.held_before;
+            ledger_.external = work_ahead_ + 0.5 * before * total.load_before;
+            ledger_.prescribed = held_ahead_ + 0.5 * before * total.held_before;
         }
         work_ahead_ = ledger_.external + 0.5 * dt * total.load_after;
         held_ahead_ = ledger_.prescribed + 0.5 * dt * total.held_after;

@@ -66,6 +66,10 @@ time_step_limits find_limits(Store const& store, Interactions const& interaction
         if constexpr (dashed) dashpots.add_pair(i, j, normal, dashpot(kn, mass_i, mass_j), 0, 0, li, lj);
         wave = std::min(wave, std::sqrt(std::min(mass_i, mass_j) / kn));
     });
+    interactions.for_each_moment_stiffness(
+        store, [&](std::size_t i, std::size_t j, point const& normal, moment_stiffness<double> const& k) {
+            bound.add_turning(i, j, normal, k.bending, k.twisting);
+        });
     walls.for_each_stiffness(store, [&](std::size_t k, point const& normal, double kn, double ks, double lever) {
         bound.add_support(k, normal, kn, ks, lever);
         double const twice = 2 * double(store.mass(k));
@@ -81,7 +85,9 @@ time_step_limits find_limits(Store const& store, Interactions const& interaction
             result.flow = double(flow->critical_time_step()) / flow->settings().interval;
         }
     double const against_motion = 1 + std::fabs(damping_type::particle_force(damping, 1.0, -1.0));
-    result.rigorous = bound.time_step(dashpots, against_motion);
+    double drag_rate = 0;
+    if constexpr (requires { damping_type::drag_rate(damping); }) drag_rate = damping_type::drag_rate(damping);
+    result.rigorous = bound.time_step(dashpots, against_motion, drag_rate);
     return result;
 }
 

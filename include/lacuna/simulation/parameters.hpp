@@ -7,7 +7,9 @@
 #include <lacuna/core/error.hpp>
 #include <lacuna/interactions/interaction_parameters.hpp>
 #include <lacuna/interactions/walls.hpp>
+#include <lacuna/laws/bond_values.hpp>
 #include <lacuna/model.hpp>
+#include <lacuna/motion/velocity_verlet.hpp>
 #include <lacuna/particles/material.hpp>
 #include <lacuna/pores/remesh.hpp>
 
@@ -22,6 +24,7 @@ struct simulation_parameters {
     std::vector<material> materials{material{}};    ///< a particle's material number counts these
     double thickness = 1;                           ///< out of plane, m; 2D only
     mass_model mass = dim == 2 ? mass_model::disc : mass_model::sphere;
+    std::vector<bond_values> bonds{};               ///< values of single bonds; none, or one entry per bond
     vec<double, dim> gravity{};                     ///< m/s^2
     interaction_parameters interactions{};
     typename Model::damping::parameters damping{};
@@ -30,6 +33,12 @@ struct simulation_parameters {
     remesh_parameters remeshing{};                  ///< of the pores, as the body deforms; models with flow
     double time_step = 0;                           ///< s; 0: safety times the critical time step
     double safety = 0.2;                            ///< fraction of the critical time step
+    /// Without a time_step given: look for the critical one again whenever bonds or contact candidates have changed. A
+    /// look costs as much as some tens of steps; with few changes that is little, with many it is the larger part.
+    bool follow_critical_step = false;
+    /// Velocities given to particles are those at the time of the positions: velocity Verlet. Else they are those of
+    /// half a step before.
+    bool velocities_on_time = starts_on_time<typename Model::integrator>;
     bool allow_unstable_step = false;               ///< run even with a time step above the bound
     double start_time = 0;                          ///< s
     int threads = 1;                                ///< takes effect in programs built with OpenMP

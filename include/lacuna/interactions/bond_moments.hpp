@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <lacuna/core/error.hpp>
+#include <lacuna/interactions/pair_loop.hpp>
+#include <lacuna/laws/bond_values.hpp>
+
+namespace lacuna {
+
+/// Adds the bonds' moments to `out`, a record {F_x, F_y, torque over radius, 0} per particle in 2D, two records (force,
+/// torque over radius) in 3D; one after the other, in the order of the pairs.
+/// \param moments on the first of each bond, rotation_dim numbers a slot, N m
+template <class Table, class Real, int Dim>
+void add_moments(particle_store<Real, Dim> const& store, Table const& bonds, std::vector<Real> const& moments,
+                 record_column<Real>& out) noexcept {
+    for (std::size_t s = 0; s < bonds.slots(); ++s) {
+        if (bonds.is_filler(s, store.size())) continue;
+        auto const i = std::size_t(bonds.i(s)), j = std::size_t(bonds.j(s));
+        for (int axis = 0; axis < rotation_dim<Dim>; ++axis) {
+            Real const moment = moments[s * rotation_dim<Dim> + std::size_t(axis)];
+            out.at(Dim == 2 ? i : 2 * i + 1, Dim == 2 ? 2 : axis) += moment / store.radius(i);
+            out.at(Dim == 2 ? j : 2 * j + 1, Dim == 2 ? 2 : axis) -= moment / store.radius(j);
+        }
+    }
+}
+
+/// Calls visit(i, j, normal, moment_stiffness) for every bond of a law with moments.
+template <class Law, class Table, class Real, int Dim, class Visit>
+void visit_moment_stiffness(particle_store<Real, Dim> const& store, Table const& bonds,
+                            parameter_table<Law, Real> const& parameters, Visit const& visit) {
+    for (std::size_t s = 0; s < bonds.slots(); ++s) {
+        if (bonds.is_filler(s, store.size())) continue;
+        auto const i = std::size_t(bonds.i(s)), j = std::size_t(bonds.j(s));
+        auto const arm = convert<double>(store.position(j) - store.position(i));
+        auto const k = Law::template against_turning<Dim>(parameters.row[std::size_t(bonds.parameter()[s])],
+                                                          store.radius(i), store.radius(j));
+        visit(i, j, arm / norm(arm), moment_stiffness<double>{double(k.bending), double(k.twisting)});
+    }
+}
+
+/// Gives each bond with values of its own a row of its own in the table of parameters.
+/// \param own one per bond, by the bonds' labels
+/// \throws std::invalid_argument for another number of values, bad ones, and those that the law does not take
+template <class Law, class Entry, class Real, int Dim>
+void give_own_rows(particle_store<Real, Dim> const& store, std::vector<Entry>& bonds, std::span<bond_values const> own,
+                   parameter_table<Law, Real>& parameters) {
+    using row = typename Law::template parameters<double>;
+    if (own.size() != bonds.size())
+        refuse("bonds.size()", double(own.size()), "0 or the number of bonds, " + std::to_string(bonds.size()));
+    for (Entry& e : bonds) {
+        std::string const name = "bonds[" + std::to_string(e.label) + "]";
+        auto const& values = own[std::size_t(e.label)];
+        values.validate(name);
+        if (values.empty()) continue;
+        if constexpr (takes_bond_values<Law, Dim>) {
+            auto const base = convert_fields<double, Real, row>(parameters.row[std::size_t(e.parameter)],
+                                                                [](Real x) { return double(x); });
+            e.parameter = std::int32_t(parameters.row.size());
+            parameters.add(Law::template with_values<Dim>(base, values, double(store.radius(std::size_t(e.i))),
+                                                          double(store.radius(std::size_t(e.j)))));
+        } else {
+            refuse(name, "values of its own", "left out: the bond law takes none");
+        }
+    }
+}
+
+} // namespace lacuna

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include <lacuna/core/error.hpp>
+
+namespace lacuna {
+
+/// What one bond has of its own, in place of what its materials give. A bond law that takes such values has
+/// `with_values<Dim>(parameters<double>, bond_values, radius_i, radius_j) -> parameters<double>`, which refuses those
+/// that the law does not know.
+struct bond_values {
+    std::optional<double> normal_stiffness{};  ///< N/m, > 0
+    std::optional<double> shear_stiffness{};   ///< N/m, >= 0
+    std::optional<double> bending_stiffness{}; ///< N m/rad, >= 0; of bonds with moments
+    std::optional<double> tensile_force{};     ///< at which the bond breaks in pure tension, N, >= 0
+    std::optional<double> shear_force{};       ///< at which the bond breaks in pure shear, N, >= 0
+
+    bool empty() const noexcept {
+        return !normal_stiffness && !shear_stiffness && !bending_stiffness && !tensile_force && !shear_force;
+    }
+    /// \throws std::invalid_argument naming field, value and rule.
+    void validate(std::string const& name) const {
+        if (normal_stiffness) require_positive(name + ".normal_stiffness", *normal_stiffness);
+        if (shear_stiffness) require_not_negative(name + ".shear_stiffness", *shear_stiffness);
+        if (bending_stiffness) require_not_negative(name + ".bending_stiffness", *bending_stiffness);
+        if (tensile_force) require_limit(name + ".tensile_force", *tensile_force);
+        if (shear_force) require_limit(name + ".shear_force", *shear_force);
+    }
+};
+
+/// Whether a bond law takes values of single bonds.
+template <class Law, int Dim>
+inline constexpr bool takes_bond_values = requires(typename Law::template parameters<double> const& p, bond_values const& v) {
+    Law::template with_values<Dim>(p, v, 1.0, 1.0);
+};
+
+} // namespace lacuna

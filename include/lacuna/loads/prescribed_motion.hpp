@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include <lacuna/core/error.hpp>
+#include <lacuna/core/vec.hpp>
+
+namespace lacuna {
+
+/// Velocities that particles are made to follow: a linear rise from the velocity they have to the one asked for, then
+/// that one. Those that have arrived cost nothing.
+template <int Dim>
+class prescribed_motion {
+public:
+    using point = vec<double, Dim>;
+
+    /// Replaces what was prescribed for a particle.
+    /// \param k internal index
+    /// \param from the velocity it has, m/s
+    /// \param to the velocity it is to get, m/s
+    /// \param ramp_time within which it gets there, from `now` on, s; > 0
+    void add(std::size_t k, point const& from, point const& to, double ramp_time, double now) {
+        forget(k);
+        rising_.push_back({k, from, to, now, ramp_time});
+    }
+    void forget(std::size_t k) {
+        std::erase_if(rising_, [&](one const& r) { return r.particle == k; });
+    }
+
+    /// Calls set(k, velocity) for each particle whose velocity still changes, with its mean velocity of the step from
+    /// `time` to `time + time_step`, s.
+    template <class Set>
+    void advance(double time, double time_step, Set const& set) {
+        if (rising_.empty()) return;
+        auto const risen = [](one const& r, double t) { // integral of the share reached so far, s
+            double const u = t - r.start;
+            return u <= 0 ? 0.0 : u < r.ramp_time ? 0.5 * u * u / r.ramp_time : u - 0.5 * r.ramp_time;
+        };
+        for (one const& r : rising_) {
+            double const share = (risen(r, time + time_step) - risen(r, time)) / time_step;
+            set(r.particle, r.from + (r.to - r.from) * share);
+        }
+        std::erase_if(rising_, [&](one const& r) { return time >= r.start + r.ramp_time; });
+    }
+
+private:
+    struct one {
+        std::size_t particle;
+        point from, to;
+        double start, ramp_time;
+    };
+    std::vector<one> rising_;
+};
+
+} // namespace lacuna

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+
+#include <lacuna/core/records.hpp>
+#include <lacuna/interactions/pair_loop.hpp>
+#include <lacuna/particles/store.hpp>
+
+namespace lacuna {
+
+/// What acts on one particle: force, N, and torque over radius, N.
+template <class Real, int Dim>
+struct particle_force {
+    vec<Real, Dim> force;
+    vec<Real, rotation_dim<Dim>> turning;
+};
+
+/// Sum of all forces of the last evaluation on one particle; not of damping policies that act on particles.
+/// \param extra forces of fluid, walls and moments, as the integrators read them
+/// \param k internal index
+template <class Real, int Dim, class Interactions>
+particle_force<Real, Dim> total_force(particle_store<Real, Dim> const& store, Interactions const& interactions,
+                                      record_column<Real> const& extra, std::size_t k) {
+    constexpr auto chunk_particles = std::size_t(Interactions::chunk_particles);
+    constexpr std::size_t records = pair_forces<Real, Dim>::records_per_pair;
+    particle_force<Real, Dim> sum{};
+    auto const add = [&](record<Real> const& force, record<Real> const& turning) {
+        for (int axis = 0; axis < Dim; ++axis) sum.force[axis] += force[axis];
+        for (int axis = 0; axis < rotation_dim<Dim>; ++axis) sum.turning[axis] += turning[Dim == 2 ? 2 : axis];
+    };
+    interactions.with_forces_on(int(k / chunk_particles), [&](auto const& pair_force) {
+        auto const of_pairs = pair_force(int(k % chunk_particles));
+        if constexpr (Dim == 2)
+            add(of_pairs, of_pairs);
+        else
+            add(of_pairs[0], of_pairs[1]);
+    });
+    record<Real> const load = store.loads()[k], none(Real(0));
+    add(load, Dim == 2 ? load : store.torques().size() > 0 ? store.torques()[k] : none);
+    add(extra[records * k], extra[records * (k + 1) - 1]);
+    return sum;
+}
+
+/// Makes the velocity, or the spin, that a particle was given at the time of its position that of half a step before.
+/// \param half_a_step s
+template <class Real, int Dim>
+void set_velocity_back(particle_store<Real, Dim>& store, particle_force<Real, Dim> const& sum, std::size_t k,
+                       Real half_a_step) {
+    auto velocity = store.velocity(k);
+    for (int axis = 0; axis < Dim; ++axis) velocity[axis] -= sum.force[axis] * store.mobility(k, axis) * half_a_step;
+    store.set_velocity(k, velocity);
+}
+template <class Real, int Dim>
+void set_spin_back(particle_store<Real, Dim>& store, particle_force<Real, Dim> const& sum, std::size_t k,
+                   Real half_a_step) {
+    auto spin = store.spin(k);
+    for (int axis = 0; axis < rotation_dim<Dim>; ++axis)
+        spin[axis] -= sum.turning[axis] * store.radius(k) * store.mobility(k, Dim) * half_a_step;
+    store.set_spin(k, spin);
+}
+
+} // namespace lacuna

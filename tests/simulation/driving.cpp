@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <utility>
+
+#include "catch.hpp"
+#include "simulation/setups.hpp"
+
+#include <lacuna/motion/velocity_verlet.hpp>
+
+using namespace setups;
+
+namespace {
+
+struct verlet : plane {
+    using integrator = lacuna::velocity_verlet;
+};
+struct plane_combined : plane {
+    using damping = lacuna::combined_damping;
+};
+
+/// Error of an oscillator's position after a time, in steps of time / count: x'' = 1 - x from rest.
+template <class Model>
+double oscillator_error(int count) {
+    auto p = springs<Model>(1, 1, 0, 4 / pi);
+    double const duration = 2.0;
+    p.time_step = duration / count;
+    p.allow_unstable_step = true;
+    lacuna::simulation<Model> sim(chain<2>(2), p);
+    sim.fix(0);
+    sim.apply(1, {1e-3, 0});
+    sim.run(count);
+    return std::fabs((sim.position(1)[0] - 1) / 1e-3 - (1 - std::cos(duration)));
+}
+
+} // namespace
+
+TEST_CASE("velocity Verlet starts on time: its positions are of second order", "[motion]") {
+    // Symplectic Euler takes the initial velocity for that of half a step before: first order.
+    for (auto const& [fine, coarse, order] :
+         {std::tuple{oscillator_error<verlet>(400), oscillator_error<verlet>(100), 2.0},
+          std::tuple{oscillator_error<plane>(400), oscillator_error<plane>(100), 1.0}})
+        REQUIRE_THAT(std::log(coarse / fine) / std::log(4), WithinAbs(order, 0.05));
+    // A velocity given in between is also one at the time of the positions.
+    auto p = springs<verlet>(1, 1, 0, 4 / pi);
+    p.time_step = 1e-3;
+    lacuna::simulation<verlet> sim(chain<2>(2), p);
+    sim.fix(0);
+    sim.set_velocity(1, {1e-3, 0});
+    sim.run(500);
+    sim.set_velocity(1, {0, 0});
+    double const start = (sim.position(1)[0] - 1) / 1e-3;
+    sim.run(700);
+    REQUIRE_THAT((sim.position(1)[0] - 1) / 1e-3, WithinAbs(start * std::cos(0.7), 1e-6));
+}
+
+TEST_CASE("a prescribed velocity rises linearly and does its work", "[loads]") {
+    auto p = springs<plane>(1e4, 1e4, 0, 4 / pi);
+    p.time_step = 1e-3;
+    lacuna::simulation<plane> sim(chain<2>(2), p);
+    sim.fix(0);
+    sim.move(1, {0.02, 0}, 0.5);
+    for (int step = 0; step < 250; ++step) sim.step_with_energy();
+    // v t^2 / (2 ramp) at half the ramp
+    REQUIRE_THAT(sim.position(1)[0] - 1, WithinRel(0.02 * 0.25 * 0.25 / (2 * 0.5), 1e-9));
+    for (int step = 0; step < 550; ++step) sim.step_with_energy();
+    double const way = 0.02 * 0.5 / 2 + 0.02 * 0.3;
+    REQUIRE_THAT(sim.position(1)[0] - 1, WithinRel(way, 1e-9));
+    REQUIRE_THAT(sim.velocity(1)[0], WithinRel(0.02, 1e-12));
+    double const stretched = way - 0.02 * p.time_step; // energies are those of the last forces
+    REQUIRE_THAT(sim.energy().strain, WithinRel(0.5 * 1e4 * stretched * stretched, 1e-6));
+    REQUIRE_THAT(sim.energy().residual(), WithinAbs(0, 1e-9 * sim.energy().largest()));
+}
+
+TEST_CASE("mass-proportional damping slows free motion exponentially, and counts in the bound", "[damping]") {
+    auto p = springs<plane_combined>(1e4, 1e4, 0, 4 / pi);
+    p.damping = {0, 3.0, 0};
+    p.time_step = 1e-4;
+    lacuna::packing<double, 2> two;
+    two.add({0, 0}, 0.5);
+    two.add({5, 0}, 0.5);
+    lacuna::simulation<plane_combined> sim(two, p);
+    sim.fix(1);
+    sim.set_velocity(0, {0.7, 0});
+    sim.set_spin(0, {0.4});
+    for (int step = 0; step < 10000; ++step) sim.step_with_energy();
+    REQUIRE_THAT(sim.velocity(0)[0], WithinRel(0.7 * std::exp(-3.0), 1e-3));
+    REQUIRE_THAT(sim.spin(0)[0], WithinRel(0.4 * std::exp(-3.0), 1e-3));
+    REQUIRE_THAT(sim.energy().residual(), WithinAbs(0, 1e-9 * sim.energy().largest()));
+    // An oscillator with the drag alone: 4 / (b + sqrt(b^2 + 4 a)) of x'' = -a x - b x'.
+    auto q = springs<plane_combined>(1.0, 0, 0, 4 / pi);
+    q.damping = {0, 5.0, 0};
+    lacuna::simulation<plane_combined> one(chain<2>(2), q);
+    one.fix(0);
+    REQUIRE_THAT(one.limits().rigorous, WithinRel(4 / (5 + std::sqrt(25 + 4.0)), 1e-12));
+}
+
+TEST_CASE("a torque spins a sphere up, with its work", "[loads]") {
+    auto p = springs<setups::space>(1e4, 1e4, 0, unit_density(3));
+    p.time_step = 1e-3;
+    lacuna::packing<double, 3> one;
+    one.add({0, 0, 0}, 0.5);
+    lacuna::simulation<setups::space> sim(one, p);
+    lacuna::vec<double, 3> const torque{0.1, 0, -0.2};
+    sim.apply(0, {}, torque, 0.5);
+    for (int step = 0; step < 1500; ++step) sim.step_with_energy();
+    double const inertia = 0.4 * 0.25, seconds = 1.0 + 0.25;
+    for (int axis = 0; axis < 3; ++axis) REQUIRE_THAT(sim.spin(0)[axis], WithinAbs(torque[axis] / inertia * seconds, 3e-3));
+    REQUIRE_THAT(sim.torque(0)[2], WithinRel(-0.2, 1e-12));
+    REQUIRE_THAT(sim.energy().residual(), WithinAbs(0, 1e-9 * sim.energy().largest()));
+}
+
+TEST_CASE("the step follows the critical one when bonds break", "[limits]") {
+    auto p = springs<plane>(1e4, 1e4, 0, 4 / pi);
+    p.follow_critical_step = true;
+    p.bonds.resize(3);
+    p.bonds[0].normal_stiffness = 1e6;
+    p.bonds[0].tensile_force = 1;
+    p.interactions.contacts = false;
+    lacuna::simulation<plane> sim(chain<2>(4), p);
+    sim.fix(0);
+    sim.move(3, {1e-2, 0});
+    double const first = sim.time_step();
+    double time = 0;
+    while (sim.events().empty()) {
+        sim.run(1);
+        time += first;
+    }
+    sim.run(1);
+    REQUIRE(sim.time_step() > 3 * first);
+    REQUIRE_THAT(sim.time_step(), WithinRel(p.safety * sim.limits().critical(), 1e-2));
+    double const second = sim.time_step();
+    sim.run(10);
+    REQUIRE_THAT(sim.time(), WithinRel(time + 11 * second, 1e-9));
+    // The particle that is moved at a constant speed has gone that far.
+    REQUIRE_THAT(sim.position(3)[0] - 3, WithinRel(1e-2 * sim.time(), 1e-9));
+}
+
+TEST_CASE("particles without contacts pass through each other", "[interactions]") {
+    auto p = springs<plane>(1e4, 1e4, 0, 4 / pi);
+    p.interactions.contacts = false;
+    p.time_step = 1e-2;
+    lacuna::packing<double, 2> two;
+    two.add({0, 0}, 0.5);
+    two.add({1.5, 0}, 0.5);
+    lacuna::simulation<plane> sim(two, p);
+    sim.set_velocity(0, {1, 0});
+    sim.run(300);
+    REQUIRE_THAT(sim.position(0)[0], WithinRel(3.0, 1e-12));
+    REQUIRE(sim.pairs().contacts().size() == 0);
+}

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <algorithm>
+
+#include "catch.hpp"
+#include "reference.hpp"
+#include "simulation/setups.hpp"
+
+#include <lacuna/laws/parallel_bond.hpp>
+
+using namespace setups;
+
+namespace {
+
+template <int Dim>
+struct beams : lacuna::default_model<Dim> {
+    using contact_law = lacuna::no_contact;
+    using bond_law = lacuna::parallel_bond;
+};
+struct damped_beams : beams<2> {
+    using damping = lacuna::combined_damping;
+};
+
+template <class Model>
+lacuna::simulation_parameters<Model> beam(double kn, double ks, double tensile = never, double shear = never) {
+    lacuna::simulation_parameters<Model> p;
+    p.materials[0].density = unit_density(Model::dim);
+    p.materials[0].bond = {kn, ks, tensile, shear, 1};
+    return p;
+}
+
+} // namespace
+
+TEST_CASE("a tip-loaded beam of parallel bonds bends as 4d says", "[moment]") {
+    for (int const count : {5, 10}) {
+        lacuna::simulation_parameters<damped_beams> p = beam<damped_beams>(1, 1);
+        p.bonds.assign(std::size_t(count), {.bending_stiffness = 0.3});
+        // Near the critical damping of the slowest mode: a static state within few periods.
+        p.damping = {0, count == 5 ? 0.15 : 0.04, 0.3};
+        p.safety = 0.5;
+        lacuna::simulation<damped_beams> sim(chain<2>(count + 1), p);
+        sim.fix(0);
+        double const force = 1e-9;
+        sim.apply(std::size_t(count), {0, force});
+        sim.run(count == 5 ? 6000 : 30000);
+        std::string const n = std::to_string(count);
+        REQUIRE_THAT(sim.position(std::size_t(count))[1] / force, WithinRel(reference("4d.with_bending_spring", n, "tip"), 1e-6));
+        auto const e = sim.orientation(std::size_t(count));
+        REQUIRE_THAT(std::atan2(e[1], e[0]) / force, WithinRel(reference("4d.with_bending_spring", n, "tip_rotation"), 1e-6));
+    }
+}
+
+TEST_CASE("the stiffness against bending is that of 4e", "[moment]") {
+    // kbar_n of 1 N/m^3: k_n = kbar_n A
+    double const area = 2 * 0.5 * 1.0;
+    auto const p = lacuna::parallel_bond::combine({area, area}, {area, area}, 1.0);
+    REQUIRE_THAT(lacuna::parallel_bond::against_turning<2>(p, 0.5, 0.7).bending,
+                 WithinRel(reference("4e.parallel_bond_2D", "k_theta/(kn_bar_per_area)"), 1e-12));
+    REQUIRE_THAT(p.normal_stiffness, WithinRel(area * reference("4e.parallel_bond_2D", "kn/(kn_bar)"), 1e-12));
+    // In space pi R^4 / 4 and pi R^4 / 2, with k = pi R^2.
+    double const round = pi * 0.25;
+    auto const q = lacuna::parallel_bond::combine({round, round}, {round, round}, 1.0);
+    REQUIRE_THAT(lacuna::parallel_bond::against_turning<3>(q, 0.5, 0.7).bending, WithinRel(pi * 0.0625 / 4, 1e-12));
+    REQUIRE_THAT(lacuna::parallel_bond::against_turning<3>(q, 0.5, 0.7).twisting, WithinRel(pi * 0.0625 / 2, 1e-12));
+}
+
+TEST_CASE("a parallel bond breaks where the stress at its rim says", "[moment]") {
+    using law = lacuna::parallel_bond;
+    double const strength = 3, radius = 0.5, thickness = 2;
+    auto const p = law::combine({1e3, 1e3, strength, strength}, {1e3, 1e3, strength, strength}, thickness);
+    lacuna::pair_motion<double, 2> const still{1, radius, radius, {}, 0};
+    double const area = 2 * radius * thickness, inertia = 2.0 / 3 * radius * radius * radius * thickness;
+    double const k = law::against_turning<2>(p, radius, radius).bending;
+    for (double const axial : {-4.0, 0.0, 2.0}) {
+        // F/A + |M| R/I reaches the strength at this moment.
+        double const moment = (strength - axial / area) * inertia / radius;
+        for (double const over : {0.999, 1.001}) {
+            auto h = law::initial<double, 2>(1 - axial / 1e3, 1);
+            auto const r = law::evaluate(p, still, {{-over * moment / k}, 0}, h);
+            REQUIRE_THAT(r.bending_moment[0], WithinRel(-over * moment, 1e-12));
+            REQUIRE_THAT(r.stored_energy, WithinRel(0.5 * (axial * axial / 1e3 + over * over * moment * moment / k), 1e-12));
+            REQUIRE(r.broken == (over > 1));
+            REQUIRE((!r.broken || r.broken_in_tension));
+        }
+    }
+    // In space a twist adds to the shear stress: F/A + M R/J.
+    auto const q = law::combine({1e3, 1e3, never, strength}, {1e3, 1e3, never, strength}, 1);
+    lacuna::pair_motion<double, 3> ball{1, radius, radius, {}, 0};
+    double const twist_limit = strength * pi * radius * radius * radius / 2;
+    for (double const over : {0.999, 1.001}) {
+        auto const r = law::evaluate(q, ball, {{}, over * twist_limit / law::against_turning<3>(q, radius, radius).twisting},
+                                     law::initial<double, 3>(1, 1));
+        REQUIRE(r.broken == (over > 1));
+        REQUIRE_FALSE(r.broken_in_tension);
+    }
+}
+
+TEMPLATE_TEST_CASE_SIG("free beams conserve momenta and energy", "[moment]", ((int Dim), Dim), 2, 3) {
+    auto p = beam<beams<Dim>>(1e4, 4e3);
+    p.safety = 0.1;
+    auto discs = chain<Dim>(4);
+    discs.position[2][1] += 0.3; // bent, and of unequal radii
+    discs.radius[1] = 0.4;
+    lacuna::simulation<beams<Dim>> sim(discs, p);
+    lacuna::vec<double, Dim> v{};
+    v[1] = 1;
+    v[Dim - 1] += 0.5;
+    sim.set_velocity(3, v);
+    lacuna::vec<double, lacuna::rotation_dim<Dim>> spin{};
+    spin[0] = 2;
+    spin[lacuna::rotation_dim<Dim> - 1] += 1;
+    sim.set_spin(0, spin);
+    auto const momentum_before = momentum(sim);
+    auto const angular_before = angular_momentum(sim);
+    double worst = 0, largest = 0;
+    for (int k = 0; k < 4000; ++k) {
+        sim.step_with_energy();
+        worst = std::max(worst, std::fabs(sim.energy().residual()));
+        largest = std::max(largest, sim.energy().largest());
+    }
+    for (int axis = 0; axis < Dim; ++axis)
+        REQUIRE_THAT(momentum(sim)[axis] - momentum_before[axis], WithinAbs(0, 1e-10));
+    // Velocities stand half a step before positions: what is conserved is x_n cross v_(n+1/2) up to that.
+    for (int axis = 0; axis < lacuna::rotation_dim<Dim>; ++axis)
+        REQUIRE_THAT(angular_momentum(sim)[axis] - angular_before[axis], WithinAbs(0, 1e-9));
+    REQUIRE(largest > 0.5);
+    // Large turns of the bonds make the ledger as good as the step is short, not to rounding.
+    REQUIRE(worst < 5e-3 * largest);
+}
+
+TEST_CASE("a rigid turn loads no beam", "[moment]") {
+    auto p = beam<beams<3>>(1e4, 1e4);
+    lacuna::simulation<beams<3>> sim(chain<3>(3), p);
+    lacuna::vec<double, 3> const spin{0, 0.3, 1}; // across the chain: a steady motion
+    for (std::size_t k = 0; k < 3; ++k) {
+        sim.set_spin(k, spin);
+        sim.set_velocity(k, cross(spin, sim.position(k) - sim.position(1)));
+        sim.fix(k, {});
+    }
+    for (int k = 0; k < 2000; ++k) sim.step_with_energy();
+    // What is left is the stretch that the centripetal force needs.
+    double const stretch_energy = 2 * 0.5 * std::pow(1.09, 2) / 1e4;
+    REQUIRE(sim.energy().strain < 4.5 * stretch_energy); // started at once, it overshoots by two
+    REQUIRE(squared_norm(sim.spin(0) - spin) < 1e-4);
+}
+
+TEST_CASE("single bonds have values of their own", "[bond values]") {
+    // A chain pulled at its end: the bond with the smallest force breaks, stretched by force / stiffness.
+    for (bool const with_moments : {false, true}) {
+        auto const pull = [&](auto model) {
+            using chosen = decltype(model);
+            lacuna::simulation_parameters<chosen> p;
+            p.materials[0].density = 4 / pi;
+            p.materials[0].bond.normal_stiffness = 1e3;
+            p.bonds.resize(3);
+            p.bonds[1] = {.normal_stiffness = 500.0, .shear_stiffness = {}, .bending_stiffness = {}, .tensile_force = 2.0,
+                          .shear_force = {}};
+            lacuna::simulation<chosen> sim(chain<2>(4), p);
+            sim.fix(0);
+            sim.move(3, {1e-4, 0});
+            while (sim.events().empty() && sim.steps() < 10000000) sim.step();
+            REQUIRE(sim.events().size() == 1);
+            auto const& e = sim.events().front();
+            REQUIRE(e.bond == 1);
+            REQUIRE_THAT(e.normal_force, WithinRel(2.0, 1e-4));
+            // Springs in series: 1e3, 500, 1e3.
+            REQUIRE_THAT(sim.position(3)[0] - 3, WithinRel(2.0 / 1e3 + 2.0 / 500 + 2.0 / 1e3, 5e-3));
+        };
+        if (with_moments)
+            pull(beams<2>{});
+        else
+            pull(plane{});
+    }
+    lacuna::simulation_parameters<plane> p;
+    p.bonds.resize(1);
+    REQUIRE_THROWS_WITH(lacuna::simulation<plane>(chain<2>(3), p), contains_text("bonds.size() = 1"));
+    p.bonds.resize(2);
+    p.bonds[1].bending_stiffness = 1;
+    REQUIRE_THROWS_WITH(lacuna::simulation<plane>(chain<2>(3), p), contains_text("bending_stiffness = 1"));
+    p.bonds[1] = {};
+    p.bonds[1].tensile_force = -1;
+    REQUIRE_THROWS_WITH(lacuna::simulation<plane>(chain<2>(3), p), contains_text("bonds[1].tensile_force = -1"));
+}
