@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include <lacuna/laws/aperture.hpp>
+#include <lacuna/laws/hertz_mindlin.hpp>
+#include <lacuna/laws/parallel_bond.hpp>
+#include <lacuna/simulation.hpp>
+
+#include "scenario.hpp"
+
+/// \file
+/// A scenario's numbers as the parameters of the library's parts.
+
+namespace lacuna_run {
+
+/// The aperture law that the file names: one of two, chosen for a whole run.
+struct chosen_aperture {
+    struct parameters {
+        bool is_constant = false;
+        lacuna::constant_aperture::parameters constant{};
+        lacuna::contact_force_aperture::parameters contact_force{};
+        void validate(std::string const& name) const {
+            constant.validate(name);
+            contact_force.validate(name);
+        }
+    };
+    template <class T>
+    static T aperture(parameters const& p, T normal_force, T gap) {
+        if (p.is_constant) return lacuna::constant_aperture::aperture(p.constant, normal_force, gap);
+        return lacuna::contact_force_aperture::aperture(p.contact_force, normal_force, gap);
+    }
+};
+
+template <int Dim>
+lacuna::vec<double, Dim> to_vec(point const& p) {
+    lacuna::vec<double, Dim> v{};
+    for (int axis = 0; axis < Dim; ++axis) v[axis] = p[std::size_t(axis)];
+    return v;
+}
+
+inline double mean_radius(particles const& p) {
+    double sum = 0;
+    for (double const r : p.radius) sum += r;
+    return sum / double(p.radius.size());
+}
+
+/// What a material, or a wall, contributes to frictional springs.
+template <class Body>
+void fill_contact(lacuna::frictional_spring::material& to, Body const& from, double /*mean_radius*/) {
+    to = {from.normal_stiffness, from.shear_stiffness, from.friction};
+}
+/// ... and to Hertzian contacts: from Young's modulus, or so that two particles of the mean radius have the stiffnesses
+/// given at an overlap of 1 % of it.
+template <class Body>
+void fill_contact(lacuna::hertz_mindlin::material& to, Body const& from, double mean_radius) {
+    if (from.young_modulus) {
+        to = {*from.young_modulus, from.poisson_ratio, from.friction, 1};
+        return;
+    }
+    // k_n = 2 E* a with a = sqrt(r/2 * r/100), and E = 2 E* where nu = 0; then Mindlin's k_s is k_n.
+    double const contact_radius = mean_radius * std::sqrt(0.005);
+    to = {from.normal_stiffness / contact_radius, 0, from.friction, from.shear_stiffness / from.normal_stiffness};
+}
+
+template <class Bond>
+void fill_bond(Bond& to, material const& from) {
+    to.normal_stiffness = from.normal_stiffness;
+    to.shear_stiffness = from.shear_stiffness;
+    if (from.tensile_strength) to.tensile_strength = *from.tensile_strength;
+    if (from.shear_strength) to.shear_strength = *from.shear_strength;
+}
+
+template <class Flow>
+void fill_flow(Flow& to, fluid const& from) {
+    to.bulk_modulus = from.bulk_modulus;
+    to.conductivity = from.conductivity;
+    to.initial_pressure = from.initial_pressure;
+    to.aperture.is_constant = from.constant_aperture;
+    if (from.constant_aperture)
+        to.aperture.constant.aperture = from.aperture;
+    else
+        to.aperture.contact_force = {from.aperture, from.half_force, from.gap_factor};
+}
+
+template <class Model>
+lacuna::simulation_parameters<Model> model_parameters(scenario const& s) {
+    constexpr int dim = Model::dim;
+    lacuna::simulation_parameters<Model> p;
+    settings const& set = s.simulation;
+    double const radius = mean_radius(s.bodies);
+    p.materials.clear();
+    for (material const& m : s.materials) {
+        typename lacuna::simulation_parameters<Model>::material one;
+        one.density = m.density;
+        fill_contact(one.contact, m, radius);
+        fill_bond(one.bond, m);
+        p.materials.push_back(one);
+    }
+    for (wall const& w : s.walls) {
+        lacuna::wall<typename Model::contact_law, dim> one;
+        one.point = to_vec<dim>(w.place);
+        one.normal = to_vec<dim>(w.normal);
+        fill_contact(one.material, w, radius);
+        p.walls.push_back(one);
+    }
+    p.bonds = s.joints.values;
+    p.thickness = set.thickness;
+    p.mass = set.spheres ? lacuna::mass_model::sphere : lacuna::mass_model::disc;
+    p.gravity = to_vec<dim>(set.gravity);
+    p.interactions.contacts = set.contact != contact_law::none;
+    p.damping = {set.local_damping, set.mass_damping, set.viscous_damping};
+    p.time_step = set.time_step;
+    p.safety = set.safety;
+    p.follow_critical_step = set.time_step == 0;
+    p.velocities_on_time = set.velocity_verlet;
+    p.allow_unstable_step = set.allow_unstable_step;
+    p.threads = set.threads;
+    if constexpr (lacuna::has_fluid<Model>) fill_flow(p.flow, *s.water);
+    return p;
+}
+
+} // namespace lacuna_run

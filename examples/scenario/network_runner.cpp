@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <lacuna/pores/explicit_flow.hpp>
+#include <lacuna/pores/flow_time_step.hpp>
+#include <lacuna/pores/implicit_flow.hpp>
+
+#include "frames.hpp"
+#include "model_parameters.hpp"
+#include "pore_view.hpp"
+#include "runner.hpp"
+#include "summary.hpp"
+
+namespace lacuna_run {
+
+namespace {
+
+/// Flow alone: a bare network, or the pores between particles that do not move.
+template <class Real, template <lacuna::aperture_law> class Flow>
+class network_runner final : public runner {
+    using flow = Flow<chosen_aperture>;
+    using solver = typename flow::template solver<Real, 2>;
+    using points = lacuna::points_view<Real, 2>;
+
+public:
+    explicit network_runner(scenario const& s) : scenario_(s), water_(*s.water) {
+        typename flow::parameters p;
+        fill_flow(p, water_);
+        for (std::size_t k = 0; k < s.bodies.size(); ++k) {
+            position_.push_back(lacuna::convert<Real>(to_vec<2>(s.bodies.position[k])));
+            radius_.push_back(Real(s.bodies.radius[k]));
+        }
+        if (water_.bare()) {
+            std::vector<Real> volumes;
+            std::vector<lacuna::bare_throat<Real>> throats;
+            for (bare_pore const& pore : water_.pores) volumes.push_back(Real(pore.volume));
+            for (bare_throat const& t : water_.throats)
+                throats.push_back({t.pores[0], t.pores[1], Real(t.length), Real(t.aperture)});
+            auto net = lacuna::make_bare_network<Real>(volumes, throats);
+            for (std::size_t k = 0; k < water_.pores.size(); ++k) net.pressure[k] = Real(water_.pores[k].pressure);
+            add_sources(water_, net, points{});
+            flow_.emplace(p, std::move(net));
+        } else {
+            flow_.emplace(p, make_network(water_, where(), radius_.data()), Real(s.simulation.thickness), where(),
+                          radius_.data());
+        }
+        for (probe const& one : s.probes) check_place(one, flow_->network());
+        settle_step();
+    }
+
+    void restore(std::string const&) override { throw refusal("--restart: checkpoints are not there yet"); }
+
+    void run(output_directory const& out) override {
+        if (step_ == 0) tell(out);
+        while (!is_over()) {
+            flow_->template advance<true>(Real(time_step_), scenario_.simulation.threads);
+            ++step_;
+            tell(out);
+        }
+    }
+    journal const& told() const override { return journal_; }
+    std::string summary(std::string const& ended, std::string const& message) const override {
+        run_numbers n;
+        n.ended = ended;
+        n.message = message;
+        n.steps = step_;
+        n.time = time();
+        n.time_step = time_step_;
+        n.critical = critical_;
+        add_pores(n, flow_->network(), where());
+        return summary_text(scenario_, journal_, n);
+    }
+
+private:
+    points where() const { return lacuna::view_points(position_); }
+    double time() const { return double(step_) * time_step_; }
+    bool is_over() const {
+        auto const& set = scenario_.simulation;
+        return set.steps ? step_ >= *set.steps : time() >= *set.end_time * (1 - 1e-12);
+    }
+
+    void settle_step() {
+        auto const& set = scenario_.simulation;
+        critical_ = double(lacuna::flow_critical_time_step(flow_->network(), water_.bulk_modulus));
+        double const given = water_.time_step > 0 ? water_.time_step : set.time_step;
+        std::string const key = water_.time_step > 0 ? "fluid.time_step" : "simulation.time_step";
+        if (given > 0) {
+            if (!water_.implicit && !set.allow_unstable_step && !(given <= critical_))
+                refuse(key, lacuna::to_text(given),
+                       "at most the stable limit " + lacuna::to_text(critical_) + " s of the flow, or allow_unstable_step");
+            time_step_ = given;
+        } else {
+            if (!std::isfinite(critical_)) refuse(key, "\"auto\"", "a number of seconds: nothing flows here");
+            time_step_ = set.safety * critical_;
+        }
+    }
+
+    void tell(output_directory const& out) {
+        bool any = false;
+        for (probe const& p : scenario_.probes) any = any || step_ % p.every == 0;
+        if (any) {
+            std::string row = std::to_string(step_) + "," + lacuna::to_text(time());
+            for (probe const& p : scenario_.probes) {
+                row += ",";
+                if (step_ % p.every == 0) row += lacuna::to_text(read(p));
+            }
+            journal_.rows.push_back(row + "\n");
+        }
+        auto const due = [&](long long every) { return every > 0 && step_ % every == 0; };
+        if (due(scenario_.out.vtk_every)) write_vtk(out, frame(), scenario_, journal_);
+        if (due(scenario_.out.picture_every)) write_picture(out, frame(), scenario_, journal_);
+    }
+
+    double read(probe const& p) const {
+        switch (p.what) {
+        case quantity::pore_pressure:
+        case quantity::pore_volume:
+        case quantity::throat_flow: return read_of_pores(p, flow_->network(), where());
+        case quantity::position: return scenario_.bodies.position[std::size_t(p.index)][std::size_t(p.axis)];
+        case quantity::fluid_energy: {
+            auto const& l = flow_->ledger();
+            return double(flow_->storage_energy() + l.dissipation - l.reservoir_work);
+        }
+        default: return 0; // nothing moves
+        }
+    }
+
+    frame_data frame() const {
+        frame_data f;
+        f.step = step_;
+        f.time = time();
+        f.position = scenario_.bodies.position;
+        f.velocity.assign(f.position.size(), point{});
+        f.intact.assign(scenario_.joints.pairs.size(), 1);
+        struct {
+            std::int32_t id(std::size_t k) const { return std::int32_t(k); }
+        } const as_given;
+        add_pores(f, flow_->network(), as_given);
+        return f;
+    }
+
+    scenario const& scenario_;
+    fluid const& water_;
+    std::vector<lacuna::vec<Real, 2>> position_;
+    std::vector<Real> radius_;
+    std::optional<solver> flow_;
+    journal journal_;
+    double time_step_ = 0, critical_ = 0;
+    long long step_ = 0;
+};
+
+template <class Real>
+std::unique_ptr<runner> make(scenario const& s) {
+    if (s.water->implicit) return std::make_unique<network_runner<Real, lacuna::implicit_flow_with>>(s);
+    return std::make_unique<network_runner<Real, lacuna::explicit_flow_with>>(s);
+}
+
+} // namespace
+
+std::unique_ptr<runner> make_network_runner(scenario const& s) {
+    return s.simulation.single_precision ? make<float>(s) : make<double>(s);
+}
+
+} // namespace lacuna_run

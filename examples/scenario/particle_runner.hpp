@@ -1,0 +1,409 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <lacuna/loads/surface_traction.hpp>
+
+#include "frames.hpp"
+#include "model_parameters.hpp"
+#include "pore_view.hpp"
+#include "runner.hpp"
+#include "summary.hpp"
+#include "touching.hpp"
+
+namespace lacuna_run {
+
+/// The models that a scenario can name, and those of which each run is made.
+template <int Dim, class Real, class Contact, class Bond, class Flow>
+struct run_model : lacuna::default_model<Dim, Real> {
+    using contact_law = Contact;
+    using bond_law = Bond;
+    using damping = lacuna::combined_damping;
+    using flow = Flow;
+};
+
+/// A run of particles, with or without fluid.
+template <class Model>
+class particle_runner final : public runner {
+    static constexpr int dim = Model::dim;
+    using simulation = lacuna::simulation<Model>;
+    using vector = lacuna::vec<double, dim>;
+
+public:
+    explicit particle_runner(scenario const& s) : scenario_(s) {
+        build(model_parameters<Model>(s));
+        if constexpr (lacuna::has_fluid<Model>) {
+            if (s.water->time_step > 0) {
+                // How many flow steps a step takes, or how many steps a flow step, follows from the step of the particles.
+                auto p = model_parameters<Model>(s);
+                double const ratio = settled_step() / s.water->time_step;
+                if (!(ratio <= 1e6 && ratio >= 1e-6))
+                    refuse("fluid.time_step", lacuna::to_text(s.water->time_step),
+                           "within 1e6 times the particles' step, " + lacuna::to_text(settled_step()) + " s");
+                p.flow.substeps = std::max(1, int(std::ceil(ratio * (1 - 1e-9))));
+                p.flow.interval = std::max(1, int(std::floor(1 / ratio * (1 + 1e-9))));
+                build(p);
+            }
+        }
+        settled_step();
+        for (probe const& p : s.probes)
+            if constexpr (lacuna::has_fluid<Model>) check_place(p, sim_->flow().network());
+    }
+
+    void restore(std::string const& path) override;
+    void run(output_directory const& out) override;
+    journal const& told() const override { return journal_; }
+    std::string summary(std::string const& ended, std::string const& message) const override;
+
+private:
+    /// Tells what a run does, step by step.
+    class watcher;
+
+    void build(lacuna::simulation_parameters<Model> const& p);
+    void set_up();
+    double settled_step() const;
+    void tell_row();
+    double read(probe const& p) const;
+    double read_of_particle(probe const& p) const;
+    double read_of_bond(probe const& p) const;
+    double read_of_contact(probe const& p) const;
+    bool is_over() const {
+        auto const& set = scenario_.simulation;
+        return set.steps ? sim_->steps() >= *set.steps : sim_->time() >= *set.end_time * (1 - 1e-12);
+    }
+    frame_data frame() const;
+
+    scenario const& scenario_;
+    std::optional<simulation> sim_;
+    journal journal_;
+};
+
+template <class Model>
+void particle_runner<Model>::build(lacuna::simulation_parameters<Model> const& given) {
+    auto p = given;
+    lacuna::packing<typename Model::real, dim> packing;
+    for (std::size_t k = 0; k < scenario_.bodies.size(); ++k)
+        packing.add(lacuna::convert<typename Model::real>(to_vec<dim>(scenario_.bodies.position[k])),
+                    typename Model::real(scenario_.bodies.radius[k]), scenario_.bodies.material[k]);
+    packing.bonds.assign(scenario_.joints.pairs.begin(), scenario_.joints.pairs.end());
+    sim_.emplace(packing, p);
+    set_up();
+    if (p.time_step > 0 || std::isfinite(sim_->limits().critical())) return;
+    // Nothing touches yet: the step of the lightest particle on the stiffest of springs, if there can be any.
+    double stiffest = 0, lightest = std::numeric_limits<double>::infinity();
+    for (material const& m : scenario_.materials) stiffest = std::max(stiffest, m.normal_stiffness + m.shear_stiffness);
+    for (wall const& w : scenario_.walls) stiffest = std::max(stiffest, w.normal_stiffness + w.shear_stiffness);
+    for (std::size_t k = 0; k < sim_->size(); ++k) lightest = std::min(lightest, sim_->mass(k));
+    if (scenario_.simulation.contact == contact_law::none)
+        refuse("simulation.time_step", "\"auto\"", "a number of seconds: nothing here has a stiffness to take it from");
+    p.time_step = p.safety * 0.5 * std::sqrt(lightest / stiffest);
+    p.allow_unstable_step = true;
+    sim_.emplace(packing, p);
+    set_up();
+}
+
+template <class Model>
+void particle_runner<Model>::set_up() {
+    auto const& s = scenario_;
+    std::vector<lacuna::fixed_axes> held(s.bodies.size());
+    for (fixed const& f : s.bodies.fix)
+        for (auto const id : f.particles) {
+            auto& h = held[std::size_t(id)];
+            h = {h.x || f.x, h.y || f.y, h.z || f.z, h.rotation || f.rotation};
+        }
+    for (std::size_t k = 0; k < s.bodies.size(); ++k) {
+        if (s.bodies.velocity[k] != point{}) sim_->set_velocity(k, to_vec<dim>(s.bodies.velocity[k]));
+        if (s.bodies.spin[k] != point{}) sim_->set_spin(k, to_vec<lacuna::rotation_dim<dim>>(s.bodies.spin[k]));
+        sim_->fix(k, held[k]);
+    }
+    struct sum {
+        vector force{};
+        lacuna::vec<double, lacuna::rotation_dim<dim>> torque{};
+        double ramp_time = 0;
+        bool any = false;
+    };
+    std::vector<sum> total(s.bodies.size());
+    auto const add = [&](std::int32_t id, point const& force, point const& torque, load const& l, std::size_t number) {
+        sum& t = total[std::size_t(id)];
+        if (t.any && t.ramp_time != l.ramp_time)
+            refuse("loads[" + std::to_string(number) + "].ramp_time", lacuna::to_text(l.ramp_time),
+                   "that of the other loads on particle " + std::to_string(id) + ", " + lacuna::to_text(t.ramp_time));
+        t.force += to_vec<dim>(force);
+        t.torque += to_vec<lacuna::rotation_dim<dim>>(torque);
+        t.ramp_time = l.ramp_time;
+        t.any = true;
+    };
+    for (std::size_t n = 0; n < s.loads.size(); ++n) {
+        load const& l = s.loads[n];
+        if (l.what == load::kind::velocity) {
+            for (auto const id : l.particles)
+                sim_->move(std::size_t(id), to_vec<dim>(l.velocity), l.ramp_time,
+                           {true, true, dim == 3, held[std::size_t(id)].rotation});
+        } else if (l.what == load::kind::force) {
+            for (auto const id : l.particles) add(id, l.force, l.torque, l, n);
+        } else {
+            auto const row = row_on_side(s.bodies, l.where, l.margin_diameters * 2 * mean_radius(s.bodies));
+            if (row.empty())
+                refuse("loads[" + std::to_string(n) + "].margin_diameters", lacuna::to_text(l.margin_diameters),
+                       "small enough to leave particles to load");
+            constexpr double inward[4][2] = {{0, -1}, {0, 1}, {1, 0}, {-1, 0}};
+            auto const& way = inward[int(l.where)];
+            for (auto const id : row) {
+                double const force = lacuna::traction_force(l.pressure, s.bodies.radius[std::size_t(id)],
+                                                            s.simulation.thickness, lacuna::traction_area::disc);
+                add(id, {force * way[0], force * way[1]}, {}, l, n);
+            }
+        }
+    }
+    for (std::size_t k = 0; k < total.size(); ++k)
+        if (total[k].any) sim_->apply(k, total[k].force, total[k].torque, total[k].ramp_time);
+    if constexpr (lacuna::has_fluid<Model>)
+        sim_->fill_pores([&](auto points, auto const* radii) { return make_network(*s.water, points, radii); });
+}
+
+template <class Model>
+double particle_runner<Model>::settled_step() const {
+    try {
+        return sim_->time_step();
+    } catch (std::invalid_argument const& bad) {
+        throw refusal("simulation." + std::string(bad.what()));
+    }
+}
+
+template <class Model>
+class particle_runner<Model>::watcher {
+public:
+    static constexpr lacuna::stage stages = lacuna::stage::step | lacuna::stage::breakage;
+    static constexpr bool needs_energy = true;
+
+    watcher(particle_runner& run, output_directory const& out) : run_(run), out_(out) {}
+
+    void on_break(lacuna::break_event<dim> const& e, simulation const& sim) {
+        break_line line;
+        line.step = e.step;
+        line.time = e.time;
+        line.bond = e.bond;
+        line.particles = {e.particles[0], e.particles[1]};
+        line.shear = e.mode == lacuna::bond_state::broken_in_shear;
+        auto const way = sim.position(std::size_t(e.particles[1])) - sim.position(std::size_t(e.particles[0]));
+        for (int axis = 0; axis < dim; ++axis) {
+            line.position[std::size_t(axis)] = e.position[axis];
+            line.direction[std::size_t(axis)] = way[axis];
+        }
+        line.normal_force = e.normal_force;
+        line.shear_force = e.shear_force;
+        line.energy = e.energy;
+        run_.journal_.breaks.push_back(line);
+    }
+    lacuna::run_control on_step(simulation const& sim) {
+        run_.tell_row();
+        auto const& o = run_.scenario_.out;
+        auto const due = [&](long long every) { return every > 0 && sim.steps() % every == 0; };
+        if (due(o.vtk_every)) write_vtk(out_, run_.frame(), run_.scenario_, run_.journal_);
+        if (due(o.picture_every)) write_picture(out_, run_.frame(), run_.scenario_, run_.journal_);
+        return run_.is_over() ? lacuna::run_control::stop : lacuna::run_control::go_on;
+    }
+
+private:
+    particle_runner& run_;
+    output_directory const& out_;
+};
+
+template <class Model>
+void particle_runner<Model>::run(output_directory const& out) {
+    auto const& o = scenario_.out;
+    if (sim_->steps() == 0) {
+        tell_row();
+        if (o.vtk_every > 0) write_vtk(out, frame(), scenario_, journal_);
+        if (o.picture_every > 0) write_picture(out, frame(), scenario_, journal_);
+    }
+    watcher watch(*this, out);
+    while (!is_over()) {
+        auto const& set = scenario_.simulation;
+        double const left = set.steps ? double(*set.steps - sim_->steps())
+                                      : std::ceil((*set.end_time - sim_->time()) / sim_->time_step());
+        sim_->run(std::max(1LL, (long long)(std::min(left, 1e15))), watch);
+    }
+}
+
+template <class Model>
+void particle_runner<Model>::restore(std::string const&) {
+    throw refusal("--restart: checkpoints are not there yet");
+}
+
+template <class Model>
+void particle_runner<Model>::tell_row() {
+    bool any = false;
+    for (probe const& p : scenario_.probes) any = any || sim_->steps() % p.every == 0;
+    if (!any) return;
+    std::string row = std::to_string(sim_->steps()) + "," + lacuna::to_text(sim_->time());
+    for (probe const& p : scenario_.probes) {
+        row += ",";
+        if (sim_->steps() % p.every == 0) row += lacuna::to_text(read(p));
+    }
+    journal_.rows.push_back(row + "\n");
+}
+
+template <class Model>
+double particle_runner<Model>::read(probe const& p) const {
+    auto const& e = sim_->energy();
+    bool const begun = sim_->steps() > 0;
+    switch (p.what) {
+    case quantity::position:
+    case quantity::velocity:
+    case quantity::spin:
+    case quantity::rotation:
+    case quantity::force:
+    case quantity::torque: return read_of_particle(p);
+    case quantity::bond_normal_force:
+    case quantity::bond_shear_force:
+    case quantity::bond_broken: return read_of_bond(p);
+    case quantity::contact_normal_force:
+    case quantity::contact_shear_force: return read_of_contact(p);
+    case quantity::wall_force: return sim_->walls().force(std::size_t(p.index))[p.axis];
+    case quantity::kinetic: return begun ? e.kinetic : sim_->kinetic_energy();
+    case quantity::strain: return e.strain;
+    case quantity::friction: return e.friction;
+    case quantity::damping: return e.damping;
+    case quantity::fracture: return e.fracture;
+    case quantity::fluid_energy: return e.fluid_storage + e.fluid_viscous + e.fluid_outflow;
+    case quantity::external: return e.external;
+    case quantity::residual: return e.residual();
+    case quantity::broken_tension: return double(journal_.broken(false));
+    case quantity::broken_shear: return double(journal_.broken(true));
+    case quantity::contacts: {
+        auto const& pairs = sim_->pairs();
+        double count = 0;
+        for (std::size_t slot = 0; begun && slot < pairs.contacts().slots(); ++slot) {
+            if (pairs.contacts().is_filler(slot, sim_->size())) continue;
+            auto const at = pairs.find_force(pairs.contacts().i(slot), pairs.contacts().j(slot));
+            count += pairs.force_column()[at + 3] != 0;
+        }
+        return count;
+    }
+    default:
+        if constexpr (lacuna::has_fluid<Model>)
+            return read_of_pores(p, sim_->flow().network(), sim_->particles().positions());
+        else
+            return 0;
+    }
+}
+
+template <class Model>
+double particle_runner<Model>::read_of_particle(probe const& p) const {
+    auto const id = std::size_t(p.index);
+    auto const part = [&](auto const& v) {
+        if constexpr (requires { v[2]; } && std::remove_cvref_t<decltype(v)>::size() == 3)
+            return p.axis < 0 ? norm(v) : v[p.axis];
+        else
+            return p.axis < 0 ? v[0] : v[p.axis];
+    };
+    // Under velocity Verlet a velocity belongs to the time of the position: half a kick from the one that is stored.
+    double const half = scenario_.simulation.velocity_verlet && sim_->steps() > 0 ? 0.5 * sim_->time_step() : 0;
+    auto const& store = sim_->particles();
+    auto const k = std::size_t(store.internal(id));
+    switch (p.what) {
+    case quantity::position: return part(sim_->position(id));
+    case quantity::velocity: {
+        auto v = sim_->velocity(id);
+        if (half > 0) {
+            auto const force = sim_->force(id);
+            for (int axis = 0; axis < dim; ++axis) v[axis] += half * force[axis] * double(store.mobility(k, axis));
+        }
+        return part(v);
+    }
+    case quantity::spin: {
+        auto w = sim_->spin(id);
+        if (half > 0) w += sim_->torque(id) * (half * double(store.mobility(k, dim)));
+        return part(w);
+    }
+    case quantity::rotation:
+        if constexpr (dim == 2) {
+            return double(store.place().at(k, 2)) / sim_->radius(id);
+        } else {
+            // The rotation vector of a unit quaternion.
+            auto const q = sim_->orientation(id);
+            vector const axis{q[1], q[2], q[3]};
+            double const sine = norm(axis);
+            double const angle = 2 * std::atan2(sine, q[0]);
+            return part(sine > 0 ? axis * (angle / sine) : axis);
+        }
+    case quantity::force: return part(sim_->force(id));
+    default: return part(sim_->torque(id));
+    }
+}
+
+template <class Model>
+double particle_runner<Model>::read_of_bond(probe const& p) const {
+    auto const& record = sim_->pairs().bond_records()[std::size_t(p.index)];
+    bool const broken = record.state != lacuna::bond_state::intact;
+    if (p.what == quantity::bond_broken) return broken ? 1 : 0;
+    if (broken || sim_->steps() == 0) return 0;
+    if (p.what == quantity::bond_shear_force) {
+        auto const& shear = sim_->pairs().bonds().get(std::size_t(record.slot)).state.shear_force;
+        return dim == 2 ? double(shear[0]) : double(norm(shear));
+    }
+    auto const& store = sim_->particles();
+    auto const at = sim_->pairs().find_force(store.internal(std::size_t(record.particles[0])),
+                                             store.internal(std::size_t(record.particles[1])));
+    return double(sim_->pairs().force_column()[at + 3]);
+}
+
+template <class Model>
+double particle_runner<Model>::read_of_contact(probe const& p) const {
+    auto const& store = sim_->particles();
+    auto const& pairs = sim_->pairs();
+    auto i = store.internal(std::size_t(p.particles[0])), j = store.internal(std::size_t(p.particles[1]));
+    if (i > j) std::swap(i, j);
+    auto const slot = pairs.contacts().find(i, j);
+    if (slot < 0 || sim_->steps() == 0) return 0;
+    if (p.what == quantity::contact_normal_force) return double(pairs.force_column()[pairs.find_force(i, j) + 3]);
+    auto const& shear = pairs.contacts().get(std::size_t(slot)).state.shear_force;
+    return dim == 2 ? double(shear[0]) : double(norm(shear));
+}
+
+template <class Model>
+frame_data particle_runner<Model>::frame() const {
+    frame_data f;
+    f.step = sim_->steps();
+    f.time = sim_->time();
+    for (std::size_t k = 0; k < sim_->size(); ++k) {
+        auto const to_point = [](auto const& v) {
+            point p{};
+            for (int axis = 0; axis < dim; ++axis) p[std::size_t(axis)] = v[axis];
+            return p;
+        };
+        f.position.push_back(to_point(sim_->position(k)));
+        f.velocity.push_back(to_point(sim_->velocity(k)));
+    }
+    for (auto const& record : sim_->pairs().bond_records())
+        f.intact.push_back(record.state == lacuna::bond_state::intact);
+    if constexpr (lacuna::has_fluid<Model>) add_pores(f, sim_->flow().network(), sim_->particles());
+    return f;
+}
+
+template <class Model>
+std::string particle_runner<Model>::summary(std::string const& ended, std::string const& message) const {
+    run_numbers n;
+    n.ended = ended;
+    n.message = message;
+    n.steps = sim_->steps();
+    n.time = sim_->time();
+    n.time_step = sim_->time_step();
+    n.critical = sim_->limits().critical();
+    n.energy = &sim_->energy();
+    n.kinetic = sim_->steps() > 0 ? sim_->energy().kinetic : sim_->kinetic_energy();
+    if constexpr (lacuna::has_fluid<Model>) add_pores(n, sim_->flow().network(), sim_->particles().positions());
+    return summary_text(scenario_, journal_, n);
+}
+
+} // namespace lacuna_run

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <limits>
+#include <string>
+
+#include <lacuna/core/points.hpp>
+#include <lacuna/pores/flow_boundaries.hpp>
+#include <lacuna/pores/pore_network.hpp>
+#include <lacuna/pores/triangulation.hpp>
+
+#include "frames.hpp"
+#include "scenario.hpp"
+#include "summary.hpp"
+
+/// \file
+/// The pore networks of scenarios: how they are made, and what probes and files see of them.
+
+namespace lacuna_run {
+
+struct any_throat {
+    template <class Throat>
+    bool operator()(Throat const&) const noexcept {
+        return true;
+    }
+};
+
+/// \throws refusal for a pore that the network does not have
+template <class Network>
+void check_pore(pore_place const& place, Network const& net, std::string const& path) {
+    if (!place.near && std::size_t(place.pore) >= net.pores())
+        refuse(path, std::to_string(place.pore), "from 0 to " + std::to_string(net.pores() - 1) + ", the last of the pores");
+}
+template <class Network>
+void check_place(probe const& p, Network const& net) {
+    bool const of_pores = p.what == quantity::pore_pressure || p.what == quantity::pore_volume || p.what == quantity::throat_flow;
+    if (of_pores && p.throat < 0) check_pore(p.where, net, "the pore of probe " + p.column);
+}
+
+template <class Real>
+std::size_t pore_at(pore_place const& place, lacuna::pore_network<Real, 2> const& net,
+                    lacuna::points_view<Real, 2> points) {
+    if (!place.near) return std::size_t(place.pore);
+    return lacuna::find_pore(net, points, lacuna::vec<Real, 2>{Real((*place.near)[0]), Real((*place.near)[1])});
+}
+
+/// Reservoirs and sources at pores.
+template <class Real>
+void add_sources(fluid const& f, lacuna::pore_network<Real, 2>& net, lacuna::points_view<Real, 2> points) {
+    for (std::size_t r = 0; r < f.reservoirs.size(); ++r) {
+        std::string const name = "reservoirs[" + std::to_string(r) + "]";
+        check_pore(f.reservoirs[r].where, net, "fluid." + name + ".pore");
+        lacuna::hold_pressure(net, name, pore_at(f.reservoirs[r].where, net, points), f.reservoirs[r].pressure);
+    }
+    for (std::size_t r = 0; r < f.sources.size(); ++r) {
+        std::string const name = "sources[" + std::to_string(r) + "]";
+        check_pore(f.sources[r].where, net, "fluid." + name + ".pore");
+        lacuna::inject(net, name, pore_at(f.sources[r].where, net, points), f.sources[r].flow);
+    }
+}
+
+/// The network between particles.
+template <class Real>
+lacuna::pore_network<Real, 2> make_network(fluid const& f, lacuna::points_view<Real, 2> points, Real const* radii) {
+    auto const mesh = lacuna::triangulate_body(points, radii);
+    if (mesh.size() == 0) refuse("fluid", "{...}", "left out: no three particles enclose a pore");
+    auto net = f.drained ? lacuna::make_pore_network(
+                               mesh, points, radii,
+                               lacuna::flow_boundaries(lacuna::reservoir("boundary", any_throat{}, f.boundary_pressure)))
+                         : lacuna::make_pore_network(mesh, points, radii);
+    add_sources(f, net, points);
+    return net;
+}
+
+/// A probe of pores or throats.
+template <class Real>
+double read_of_pores(probe const& p, lacuna::pore_network<Real, 2> const& net, lacuna::points_view<Real, 2> points) {
+    if (p.what != quantity::throat_flow) {
+        auto const pore = pore_at(p.where, net, points);
+        return double(p.what == quantity::pore_pressure ? net.pressure[pore] : net.volume[pore]);
+    }
+    if (p.throat >= 0) return double(net.flow[std::size_t(p.throat)]);
+    if (p.where.near) {
+        // Of the throat whose middle is nearest; positive from the pore on its right to the one on its left.
+        std::size_t nearest = 0;
+        double least = std::numeric_limits<double>::infinity();
+        for (std::size_t t = 0; t < net.throats(); ++t) {
+            double apart = 0;
+            for (int axis = 0; axis < 2; ++axis) {
+                double const middle = 0.5 * (double(points(std::size_t(net.throat_particle[0][t]), axis)) +
+                                             double(points(std::size_t(net.throat_particle[1][t]), axis)));
+                apart += (middle - (*p.where.near)[std::size_t(axis)]) * (middle - (*p.where.near)[std::size_t(axis)]);
+            }
+            if (apart < least) {
+                least = apart;
+                nearest = t;
+            }
+        }
+        return net.throats() > 0 ? double(net.flow[nearest]) : 0;
+    }
+    double into = 0; // the pore, through all its throats
+    auto const pore = std::size_t(p.where.pore);
+    for (auto e = net.pore_throats.first[pore]; e < net.pore_throats.first[pore + 1]; ++e) {
+        auto const entry = net.pore_throats.entry[std::size_t(e)];
+        into += (entry % 2 == 0 ? 1 : -1) * double(net.flow[std::size_t(entry / 2)]);
+    }
+    return into;
+}
+
+/// Pores and sources, for summary.json.
+template <class Real>
+void add_pores(run_numbers& n, lacuna::pore_network<Real, 2> const& net, lacuna::points_view<Real, 2> points) {
+    for (std::size_t p = 0; p < net.pores(); ++p) {
+        run_numbers::pore one{{}, double(net.volume[p]), double(net.pressure[p])};
+        if (!net.bare()) {
+            auto const middle = lacuna::pore_middle(net, p, points);
+            one.middle = point{double(middle[0]), double(middle[1])};
+        }
+        n.pores.push_back(one);
+    }
+    for (auto const& source : net.sources) n.sources.push_back({source.name, source.volume, source.rate});
+}
+
+/// Pores as triangles of particles by their ids, for pictures and VTK.
+template <class Real, class Store>
+void add_pores(frame_data& f, lacuna::pore_network<Real, 2> const& net, Store const& store) {
+    for (std::size_t p = 0; p < net.pores(); ++p) {
+        frame_data::pore one{};
+        for (std::size_t c = 0; c < 3; ++c) one.corners[c] = store.id(std::size_t(net.corner[c][p]));
+        one.pressure = double(net.pressure[p]);
+        one.volume = double(net.volume[p]);
+        f.pores.push_back(one);
+    }
+}
+
+} // namespace lacuna_run

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runner.hpp"
+
+#include <lacuna/laws/frictional_spring.hpp>
+#include <lacuna/laws/hertz_mindlin.hpp>
+
+namespace lacuna_run {
+
+namespace {
+
+template <int Dim, class Real>
+std::unique_ptr<runner> make(scenario const& s) {
+    if (s.simulation.contact == contact_law::hertz_mindlin) return make_particle_runner<Dim, Real, lacuna::hertz_mindlin>(s);
+    return make_particle_runner<Dim, Real, lacuna::frictional_spring>(s);
+}
+
+} // namespace
+
+std::unique_ptr<runner> make_runner(scenario const& s) {
+#ifndef LACUNA_HAS_PICTURES
+    if (s.out.picture_every > 0)
+        refuse("output.picture_every", std::to_string(s.out.picture_every), "0: this program was built without pictures");
+#endif
+    if (s.out.picture_every > 0 && s.simulation.dimension == 3)
+        refuse("output.picture_every", std::to_string(s.out.picture_every), "0: pictures are of the plane");
+    if (s.water && (s.water->bare() || !s.water->mechanical_coupling)) {
+        if (!s.loads.empty())
+            refuse("loads", "[...]", "left out: fluid.mechanical_coupling is false, particles do not move");
+        return make_network_runner(s);
+    }
+    bool const single = s.simulation.single_precision;
+    if (s.simulation.dimension == 3) return single ? make<3, float>(s) : make<3, double>(s);
+    return single ? make<2, float>(s) : make<2, double>(s);
+}
+
+} // namespace lacuna_run

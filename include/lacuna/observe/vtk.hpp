@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <bit>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <lacuna/core/error.hpp>
+#include <lacuna/observe/canvas_file.hpp>
+
+/// \file
+/// Files for ParaView and its kin: VTK's XML format for surfaces, lines and points (.vtp) with raw appended data, and
+/// series of them in time (.pvd). Written without VTK.
+
+namespace lacuna {
+
+/// Numbers at points or cells: `components` to each, one after the other.
+struct vtk_array {
+    std::string name;
+    int components = 1;
+    std::vector<double> values;
+};
+
+/// What a .vtp file shows: points, and cells of one kind over them.
+struct vtk_surface {
+    enum class cells { points, lines, polygons };
+    cells kind = cells::points;
+    std::vector<double> coordinates;         ///< x, y, z of each point, m
+    std::vector<std::int64_t> connectivity;  ///< points of each cell, one cell after the other; of cells::points each one
+    std::vector<std::int64_t> offsets;       ///< where each cell ends in `connectivity`
+    std::vector<vtk_array> point_data, cell_data;
+
+    /// Appends a cell.
+    void add_cell(std::initializer_list<std::int64_t> corners) {
+        connectivity.insert(connectivity.end(), corners);
+        offsets.push_back(std::int64_t(connectivity.size()));
+    }
+    /// \throws std::invalid_argument for arrays that are not as long as there are points or cells, and for corners that
+    ///         are no points
+    void validate() const {
+        std::size_t const points = coordinates.size() / 3;
+        if (coordinates.size() % 3 != 0) refuse("vtk_surface.coordinates.size()", double(coordinates.size()), "a multiple of 3");
+        for (auto const corner : connectivity)
+            if (corner < 0 || std::size_t(corner) >= points) refuse("vtk_surface.connectivity", double(corner), "a point");
+        if (!offsets.empty() && std::size_t(offsets.back()) != connectivity.size())
+            refuse("vtk_surface.offsets", double(offsets.back()), "the size of connectivity at the end");
+        auto const check = [](std::vector<vtk_array> const& arrays, std::size_t count) {
+            for (vtk_array const& a : arrays)
+                if (a.components < 1 || a.values.size() != count * std::size_t(a.components))
+                    refuse("vtk_surface." + a.name, double(a.values.size()), "one value per point or cell and component");
+        };
+        check(point_data, points);
+        check(cell_data, offsets.size());
+    }
+};
+
+/// The bytes of a .vtp file. \throws std::invalid_argument as vtk_surface::validate()
+inline std::string vtk_text(vtk_surface const& s) {
+    s.validate();
+    static_assert(std::endian::native == std::endian::little || std::endian::native == std::endian::big);
+    std::string data, text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"";
+    text += std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian";
+    text += "\" header_type=\"UInt64\">\n<PolyData>\n";
+    auto const append = [&](auto const& values, std::string const& type, std::string const& name, int components) {
+        text += "<DataArray type=\"" + type + "\" Name=\"" + name + "\" NumberOfComponents=\"" + std::to_string(components) +
+                "\" format=\"appended\" offset=\"" + std::to_string(data.size()) + "\"/>\n";
+        std::uint64_t const bytes = values.size() * sizeof values[0];
+        data.append(reinterpret_cast<char const*>(&bytes), sizeof bytes);
+        data.append(reinterpret_cast<char const*>(values.data()), bytes);
+    };
+    auto const number = [](std::size_t n) { return "\"" + std::to_string(n) + "\""; };
+    auto const of = [&](vtk_surface::cells kind) { return number(s.kind == kind ? s.offsets.size() : 0); };
+    text += "<Piece NumberOfPoints=" + number(s.coordinates.size() / 3) + " NumberOfVerts=" + of(vtk_surface::cells::points) +
+            " NumberOfLines=" + of(vtk_surface::cells::lines) + " NumberOfStrips=\"0\" NumberOfPolys=" +
+            of(vtk_surface::cells::polygons) + ">\n<PointData>\n";
+    for (vtk_array const& a : s.point_data) append(a.values, "Float64", a.name, a.components);
+    text += "</PointData>\n<CellData>\n";
+    for (vtk_array const& a : s.cell_data) append(a.values, "Float64", a.name, a.components);
+    text += "</CellData>\n<Points>\n";
+    append(s.coordinates, "Float64", "Points", 3);
+    std::string const element = s.kind == vtk_surface::cells::points  ? "Verts"
+                                : s.kind == vtk_surface::cells::lines ? "Lines"
+                                                                      : "Polys";
+    text += "</Points>\n<" + element + ">\n";
+    append(s.connectivity, "Int64", "connectivity", 1);
+    append(s.offsets, "Int64", "offsets", 1);
+    return text + "</" + element + ">\n</Piece>\n</PolyData>\n<AppendedData encoding=\"raw\">\n_" + data +
+           "\n</AppendedData>\n</VTKFile>\n";
+}
+
+/// Writes a .vtp file, whole or not at all. \throws std::runtime_error when it cannot be written
+inline void save_vtk(std::string const& path, vtk_surface const& s) {
+    whole_file file(path);
+    file.write(vtk_text(s));
+    file.commit();
+}
+
+/// Writes a .pvd file: what stands where in time.
+/// \param frames time in s, and name of a file relative to the .pvd file
+inline void save_vtk_series(std::string const& path, std::vector<std::pair<double, std::string>> const& frames) {
+    std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\">\n<Collection>\n";
+    for (auto const& [time, name] : frames)
+        text += "<DataSet timestep=\"" + to_text(time) + "\" file=\"" + name + "\"/>\n";
+    whole_file file(path);
+    file.write(text + "</Collection>\n</VTKFile>\n");
+    file.commit();
+}
+
+} // namespace lacuna
