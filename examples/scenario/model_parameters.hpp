@@ -6,35 +6,17 @@
 #include <limits>
 #include <vector>
 
-#include <lacuna/laws/aperture.hpp>
 #include <lacuna/laws/hertz_mindlin.hpp>
 #include <lacuna/laws/parallel_bond.hpp>
 #include <lacuna/simulation.hpp>
 
+#include "chosen_flow.hpp"
 #include "scenario.hpp"
 
 /// \file
 /// A scenario's numbers as the parameters of the library's parts.
 
 namespace lacuna_run {
-
-/// The aperture law that the file names: one of two, chosen for a whole run.
-struct chosen_aperture {
-    struct parameters {
-        bool is_constant = false;
-        lacuna::constant_aperture::parameters constant{};
-        lacuna::contact_force_aperture::parameters contact_force{};
-        void validate(std::string const& name) const {
-            constant.validate(name);
-            contact_force.validate(name);
-        }
-    };
-    template <class T>
-    static T aperture(parameters const& p, T normal_force, T gap) {
-        if (p.is_constant) return lacuna::constant_aperture::aperture(p.constant, normal_force, gap);
-        return lacuna::contact_force_aperture::aperture(p.contact_force, normal_force, gap);
-    }
-};
 
 template <int Dim>
 lacuna::vec<double, Dim> to_vec(point const& p) {
@@ -75,8 +57,9 @@ void fill_bond(Bond& to, material const& from) {
     if (from.shear_strength) to.shear_strength = *from.shear_strength;
 }
 
-template <class Flow>
-void fill_flow(Flow& to, fluid const& from) {
+inline chosen_flow::parameters flow_of(fluid const& from) {
+    chosen_flow::parameters to;
+    to.kind = from.implicit ? flow_kind::implicit_steps : flow_kind::explicit_steps;
     to.bulk_modulus = from.bulk_modulus;
     to.conductivity = from.conductivity;
     to.initial_pressure = from.initial_pressure;
@@ -85,6 +68,9 @@ void fill_flow(Flow& to, fluid const& from) {
         to.aperture.constant.aperture = from.aperture;
     else
         to.aperture.contact_force = {from.aperture, from.half_force, from.gap_factor};
+    // As many flow steps within one of the particles as are safe.
+    to.substeps = from.implicit ? 1 : 0;
+    return to;
 }
 
 template <class Model>
@@ -120,7 +106,8 @@ lacuna::simulation_parameters<Model> model_parameters(scenario const& s) {
     p.velocities_on_time = set.velocity_verlet;
     p.allow_unstable_step = set.allow_unstable_step;
     p.threads = set.threads;
-    if constexpr (lacuna::has_fluid<Model>) fill_flow(p.flow, *s.water);
+    if constexpr (lacuna::has_fluid<Model>)
+        if (s.water) p.flow = flow_of(*s.water);
     return p;
 }
 

@@ -7,9 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include <lacuna/pores/explicit_flow.hpp>
 #include <lacuna/pores/flow_time_step.hpp>
-#include <lacuna/pores/implicit_flow.hpp>
 
 #include "frames.hpp"
 #include "model_parameters.hpp"
@@ -22,16 +20,15 @@ namespace lacuna_run {
 namespace {
 
 /// Flow alone: a bare network, or the pores between particles that do not move.
-template <class Real, template <lacuna::aperture_law> class Flow>
+template <class Real>
 class network_runner final : public runner {
-    using flow = Flow<chosen_aperture>;
-    using solver = typename flow::template solver<Real, 2>;
+    using solver = chosen_flow::solver<Real, 2>;
     using points = lacuna::points_view<Real, 2>;
 
 public:
     explicit network_runner(scenario const& s) : scenario_(s), water_(*s.water) {
-        typename flow::parameters p;
-        fill_flow(p, water_);
+        auto p = flow_of(water_);
+        p.substeps = 1;
         for (std::size_t k = 0; k < s.bodies.size(); ++k) {
             position_.push_back(lacuna::convert<Real>(to_vec<2>(s.bodies.position[k])));
             radius_.push_back(Real(s.bodies.radius[k]));
@@ -59,7 +56,7 @@ public:
     void run(output_directory const& out) override {
         if (step_ == 0) tell(out);
         while (!is_over()) {
-            flow_->template advance<true>(Real(time_step_), scenario_.simulation.threads);
+            flow_->advance(Real(time_step_), scenario_.simulation.threads);
             ++step_;
             tell(out);
         }
@@ -155,16 +152,11 @@ private:
     long long step_ = 0;
 };
 
-template <class Real>
-std::unique_ptr<runner> make(scenario const& s) {
-    if (s.water->implicit) return std::make_unique<network_runner<Real, lacuna::implicit_flow_with>>(s);
-    return std::make_unique<network_runner<Real, lacuna::explicit_flow_with>>(s);
-}
-
 } // namespace
 
 std::unique_ptr<runner> make_network_runner(scenario const& s) {
-    return s.simulation.single_precision ? make<float>(s) : make<double>(s);
+    if (s.simulation.single_precision) return std::make_unique<network_runner<float>>(s);
+    return std::make_unique<network_runner<double>>(s);
 }
 
 } // namespace lacuna_run

@@ -22,13 +22,13 @@
 
 namespace lacuna_run {
 
-/// The models that a scenario can name, and those of which each run is made.
-template <int Dim, class Real, class Contact, class Bond, class Flow>
+/// The models that a scenario can name.
+template <int Dim, class Real, class Contact, class Bond>
 struct run_model : lacuna::default_model<Dim, Real> {
     using contact_law = Contact;
     using bond_law = Bond;
     using damping = lacuna::combined_damping;
-    using flow = Flow;
+    using flow = std::conditional_t<Dim == 2, chosen_flow, lacuna::no_flow>;
 };
 
 /// A run of particles, with or without fluid.
@@ -42,7 +42,7 @@ public:
     explicit particle_runner(scenario const& s) : scenario_(s) {
         build(model_parameters<Model>(s));
         if constexpr (lacuna::has_fluid<Model>) {
-            if (s.water->time_step > 0) {
+            if (s.water && s.water->time_step > 0) {
                 // How many flow steps a step takes, or how many steps a flow step, follows from the step of the particles.
                 auto p = model_parameters<Model>(s);
                 double const ratio = settled_step() / s.water->time_step;
@@ -167,7 +167,9 @@ void particle_runner<Model>::set_up() {
     for (std::size_t k = 0; k < total.size(); ++k)
         if (total[k].any) sim_->apply(k, total[k].force, total[k].torque, total[k].ramp_time);
     if constexpr (lacuna::has_fluid<Model>)
-        sim_->fill_pores([&](auto points, auto const* radii) { return make_network(*s.water, points, radii); });
+        sim_->fill_pores([&](auto points, auto const* radii) {
+            return s.water ? make_network(*s.water, points, radii) : lacuna::pore_network<typename Model::real, 2>{};
+        });
 }
 
 template <class Model>

@@ -338,9 +338,7 @@ fluid read_fluid(value const& from, settings const& s) {
     f.conductivity = t["conductivity"].not_negative();
     if (t.has("network")) {
         read_network(t["network"], f);
-        for (char const* key : {"aperture", "initial_pressure"}) t.must_be_left_out(key, "the network has its own");
-        for (char const* key : {"boundary", "boundary_pressure", "mechanical_coupling"})
-            t.must_be_left_out(key, "a bare network has no outside and no particles");
+        t.must_be_left_out("aperture", "each throat of the network has its own");
     } else {
         value const law = t["aperture"];
         auto const* words = law.node->as_table();
@@ -369,6 +367,7 @@ fluid read_fluid(value const& from, settings const& s) {
     }
     f.initial_pressure = t.number("initial_pressure", 0);
     f.drained = t.word("boundary", {"sealed", "drained"}, 0) == 1;
+    if (f.drained && f.bare()) t["boundary"].refuse("\"sealed\": a bare network has no outside, but reservoirs");
     if (!f.drained) t.must_be_left_out("boundary_pressure", "boundary is not \"drained\"");
     f.boundary_pressure = t.number("boundary_pressure", 0);
     if (t.has("reservoirs"))
