@@ -86,6 +86,10 @@ struct chosen_flow {
         network_type const& network() const;
         parameters const& settings() const { return parameters_; }
         std::size_t skip_idle_throats(Real duration);
+        template <class Archive>
+        void serialize(Archive& ar) {
+            std::visit([&](auto& one) { ar(one); }, chosen_);
+        }
 
     private:
         void map(lookup_type const& lookup);

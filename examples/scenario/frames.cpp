@@ -30,7 +30,7 @@ std::vector<double> flat(std::vector<point> const& points) {
 } // namespace
 
 void write_vtk(output_directory const& out, frame_data const& f, scenario const& s, journal& j) {
-    j.frames.emplace_back(f.time, numbered("", f.step, ".vtp"));
+    j.frames.push_back({f.time, numbered("", f.step, ".vtp")});
     auto const save = [&](char const* name, lacuna::vtk_surface const& surface) {
         lacuna::save_vtk(out.file(numbered(name, f.step, ".vtp")), surface);
         std::vector<std::pair<double, std::string>> series;

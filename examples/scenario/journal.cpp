@@ -27,10 +27,14 @@ void output_directory::write(std::string const& name, std::string const& text) c
     whole.commit();
 }
 
-std::string probes_text(scenario const& s, journal const& j) {
+std::string heading_of(scenario const& s) {
     std::string text = "step,time";
     for (probe const& p : s.probes) text += "," + p.column;
-    text += "\n";
+    return text + "\n";
+}
+
+std::string probes_text(journal const& j) {
+    std::string text = j.heading;
     for (std::string const& row : j.rows) text += row;
     return text;
 }

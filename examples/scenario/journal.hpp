@@ -25,7 +25,12 @@ struct break_line {
 struct journal {
     std::vector<std::string> rows; ///< of probes.csv
     std::vector<break_line> breaks;
-    std::vector<std::pair<double, std::string>> frames; ///< of the VTK series: time, file
+    struct frame {
+        double time;
+        std::string ending; ///< of the files' names
+    };
+    std::vector<frame> frames; ///< of the VTK series
+    std::string heading;       ///< of probes.csv
     std::size_t broken(bool shear) const noexcept {
         std::size_t count = 0;
         for (break_line const& b : breaks) count += b.shear == shear;
@@ -45,7 +50,9 @@ private:
     std::string path_;
 };
 
-std::string probes_text(scenario const& s, journal const& j);
+/// First line of probes.csv.
+std::string heading_of(scenario const& s);
+std::string probes_text(journal const& j);
 std::string events_text(scenario const& s, journal const& j);
 
 } // namespace lacuna_run

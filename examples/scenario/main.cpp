@@ -22,7 +22,7 @@ struct request {
 
 void write_results(lacuna_run::output_directory const& out, lacuna_run::scenario const& s, lacuna_run::runner const& run,
                    std::string const& ended, std::string const& message) {
-    out.write("probes.csv", lacuna_run::probes_text(s, run.told()));
+    out.write("probes.csv", lacuna_run::probes_text(run.told()));
     out.write("events.csv", lacuna_run::events_text(s, run.told()));
     // Last, because its presence says that the run is finished.
     out.write("summary.json", run.summary(ended, message));

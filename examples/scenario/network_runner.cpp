@@ -9,6 +9,7 @@
 
 #include <lacuna/pores/flow_time_step.hpp>
 
+#include "checkpoints.hpp"
 #include "frames.hpp"
 #include "model_parameters.hpp"
 #include "pore_view.hpp"
@@ -27,6 +28,7 @@ class network_runner final : public runner {
 
 public:
     explicit network_runner(scenario const& s) : scenario_(s), water_(*s.water) {
+        journal_.heading = heading_of(s);
         auto p = flow_of(water_);
         p.substeps = 1;
         for (std::size_t k = 0; k < s.bodies.size(); ++k) {
@@ -51,7 +53,23 @@ public:
         settle_step();
     }
 
-    void restore(std::string const&) override { throw refusal("--restart: checkpoints are not there yet"); }
+    void restore([[maybe_unused]] std::string const& path) override {
+#ifdef LACUNA_RUN_CHECKPOINTS
+        std::string const heading = journal_.heading;
+        try {
+            auto const content = lacuna::read_checkpoint(path);
+            if (content.model != model_text() || content.settings != settings_hash())
+                throw refusal("checkpoint " + path + ": it is of another network");
+            lacuna::state_reader state(content.state);
+            state(*flow_, journal_, step_);
+        } catch (std::runtime_error const& bad) {
+            throw refusal(bad.what());
+        }
+        check_heading(path, journal_, heading);
+#else
+        throw refusal("--restart = \"" + path + "\": must be left out: this program was built without checkpoints");
+#endif
+    }
 
     void run(output_directory const& out) override {
         if (step_ == 0) tell(out);
@@ -75,6 +93,23 @@ public:
     }
 
 private:
+#ifdef LACUNA_RUN_CHECKPOINTS
+    static std::string model_text() { return sizeof(Real) == 4 ? "flow alone, float" : "flow alone, double"; }
+    /// Of all that never changes.
+    std::uint64_t settings_hash() const {
+        lacuna::state_writer bytes;
+        auto const& net = flow_->network();
+        bytes(net.throat_pore, net.length, time_step_, water_.bulk_modulus, water_.conductivity, water_.implicit);
+        for (std::size_t p = 0; water_.bare() && p < net.pores(); ++p) bytes(Real(net.volume[p]));
+        for (auto const& source : net.sources) bytes(source.name, source.value, source.pores);
+        return lacuna::checksum_of(bytes.bytes());
+    }
+    void save(output_directory const& out) const {
+        lacuna::state_writer state;
+        state(*flow_, journal_, step_);
+        lacuna::write_checkpoint(out.file("checkpoint.bin"), {model_text(), settings_hash(), state.bytes()});
+    }
+#endif
     points where() const { return lacuna::view_points(position_); }
     double time() const { return double(step_) * time_step_; }
     bool is_over() const {
@@ -112,6 +147,9 @@ private:
         auto const due = [&](long long every) { return every > 0 && step_ % every == 0; };
         if (due(scenario_.out.vtk_every)) write_vtk(out, frame(), scenario_, journal_);
         if (due(scenario_.out.picture_every)) write_picture(out, frame(), scenario_, journal_);
+#ifdef LACUNA_RUN_CHECKPOINTS
+        if (step_ > 0 && due(scenario_.out.checkpoint_every)) save(out);
+#endif
     }
 
     double read(probe const& p) const {

@@ -13,6 +13,7 @@
 
 #include <lacuna/loads/surface_traction.hpp>
 
+#include "checkpoints.hpp"
 #include "frames.hpp"
 #include "model_parameters.hpp"
 #include "pore_view.hpp"
@@ -40,6 +41,7 @@ class particle_runner final : public runner {
 
 public:
     explicit particle_runner(scenario const& s) : scenario_(s) {
+        journal_.heading = heading_of(s);
         build(model_parameters<Model>(s));
         if constexpr (lacuna::has_fluid<Model>) {
             if (s.water && s.water->time_step > 0) {
@@ -212,6 +214,9 @@ public:
         auto const due = [&](long long every) { return every > 0 && sim.steps() % every == 0; };
         if (due(o.vtk_every)) write_vtk(out_, run_.frame(), run_.scenario_, run_.journal_);
         if (due(o.picture_every)) write_picture(out_, run_.frame(), run_.scenario_, run_.journal_);
+#ifdef LACUNA_RUN_CHECKPOINTS
+        if (due(o.checkpoint_every)) lacuna::save_checkpoint(out_.file("checkpoint.bin"), sim, run_.journal_);
+#endif
         return run_.is_over() ? lacuna::run_control::stop : lacuna::run_control::go_on;
     }
 
@@ -238,8 +243,18 @@ void particle_runner<Model>::run(output_directory const& out) {
 }
 
 template <class Model>
-void particle_runner<Model>::restore(std::string const&) {
-    throw refusal("--restart: checkpoints are not there yet");
+void particle_runner<Model>::restore([[maybe_unused]] std::string const& path) {
+#ifdef LACUNA_RUN_CHECKPOINTS
+    std::string const heading = journal_.heading;
+    try {
+        lacuna::load_checkpoint(path, *sim_, journal_);
+    } catch (lacuna::checkpoint_error const& bad) {
+        throw refusal(bad.what());
+    }
+    check_heading(path, journal_, heading);
+#else
+    throw refusal("--restart = \"" + path + "\": must be left out: this program was built without checkpoints");
+#endif
 }
 
 template <class Model>

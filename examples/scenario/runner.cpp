@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "checkpoints.hpp"
 #include "runner.hpp"
 
 #include <lacuna/laws/frictional_spring.hpp>
@@ -20,6 +21,10 @@ std::unique_ptr<runner> make_runner(scenario const& s) {
 #ifndef LACUNA_HAS_PICTURES
     if (s.out.picture_every > 0)
         refuse("output.picture_every", std::to_string(s.out.picture_every), "0: this program was built without pictures");
+#endif
+#ifndef LACUNA_RUN_CHECKPOINTS
+    if (s.out.checkpoint_every > 0)
+        refuse("output.checkpoint_every", std::to_string(s.out.checkpoint_every), "0: this program was built without checkpoints");
 #endif
     if (s.out.picture_every > 0 && s.simulation.dimension == 3)
         refuse("output.picture_every", std::to_string(s.out.picture_every), "0: pictures are of the plane");

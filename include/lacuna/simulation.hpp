@@ -467,11 +467,12 @@ private:
     prescribed_motion<dim> motions_;
     mutable std::optional<double> time_step_;
     /// When the present time step began to apply, and how long the last step was.
-    struct {
+    struct step_clock {
         double time;
         long long step;
         double last;
-    } clock_{parameters_.start_time, 0, 0};
+    };
+    step_clock clock_{parameters_.start_time, 0, 0};
     real moved_ = 0, smallest_radius_ = 1;
     long long step_ = 0, planned_steps_ = 0, planned_end_ = 0;
     bool streams_ = true;

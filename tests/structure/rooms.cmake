@@ -32,7 +32,7 @@ set(cereal_HEADERS "^cereal/")
 set(cereal_ROOMS observe)
 set(intrinsics_HEADERS "^([a-z]+intrin|arm_neon|arm_sve)\\.h$")
 set(intrinsics_ROOMS core)
-set(programs_HEADERS "^(CLI|nlohmann|catch2|benchmark)/")
+set(programs_HEADERS "^(CLI|toml\\+\\+|nlohmann|catch2|benchmark)/")
 set(programs_ROOMS "")
 
 set(FORBIDDEN_STANDARD "^(iostream|ranges|functional|regex)$")

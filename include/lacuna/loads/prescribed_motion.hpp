@@ -30,6 +30,11 @@ public:
         std::erase_if(rising_, [&](one const& r) { return r.particle == k; });
     }
 
+    template <class Archive>
+    void serialize(Archive& ar) {
+        ar(rising_);
+    }
+
     /// Calls set(k, velocity) for each particle whose velocity still changes, with its mean velocity of the step from
     /// `time` to `time + time_step`, s.
     template <class Set>
