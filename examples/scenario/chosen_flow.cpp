@@ -98,6 +98,15 @@ std::size_t chosen_flow::solver<Real, Dim>::skip_idle_throats(Real duration) {
     return std::visit([&](auto& one) { return std::size_t(one.skip_idle_throats(duration)); }, chosen_);
 }
 
+template <class Real, int Dim>
+void chosen_flow::solver<Real, Dim>::restore(network_type network, lacuna::flow_ledger<Real> const& ledger) {
+    std::visit(
+        [&](auto& one) {
+            if constexpr (requires { one.restore(std::move(network), ledger); }) one.restore(std::move(network), ledger);
+        },
+        chosen_);
+}
+
 template class chosen_flow::solver<double, 2>;
 template class chosen_flow::solver<float, 2>;
 

@@ -86,6 +86,8 @@ struct chosen_flow {
         network_type const& network() const;
         parameters const& settings() const { return parameters_; }
         std::size_t skip_idle_throats(Real duration);
+        /// Goes on with another network of the same body; see the solvers.
+        void restore(network_type network, lacuna::flow_ledger<Real> const& ledger);
         template <class Archive>
         void serialize(Archive& ar) {
             std::visit([&](auto& one) { ar(one); }, chosen_);

@@ -57,6 +57,15 @@ void fill_bond(Bond& to, material const& from) {
     if (from.shear_strength) to.shear_strength = *from.shear_strength;
 }
 
+template <class Flow>
+void fill_merging(Flow& to, fluid const& from) {
+    if (!from.merge_conductance) return;
+    if constexpr (requires { to.merge_conductance; })
+        to.merge_conductance = *from.merge_conductance;
+    else if (*from.merge_conductance < 1e300)
+        refuse("fluid.merge_conductance", lacuna::to_text(*from.merge_conductance), "left out: pores do not merge here");
+}
+
 inline chosen_flow::parameters flow_of(fluid const& from) {
     chosen_flow::parameters to;
     to.kind = from.implicit ? flow_kind::implicit_steps : flow_kind::explicit_steps;
@@ -70,6 +79,7 @@ inline chosen_flow::parameters flow_of(fluid const& from) {
         to.aperture.contact_force = {from.aperture, from.half_force, from.gap_factor};
     // As many flow steps within one of the particles as are safe.
     to.substeps = from.implicit ? 1 : 0;
+    fill_merging(to, from);
     return to;
 }
 

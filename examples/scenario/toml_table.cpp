@@ -9,6 +9,8 @@
 
 namespace lacuna_run {
 
+void refuse_syntax(char const* broken) { throw refusal(std::string("not a TOML file: ") + broken); }
+
 std::string value::text() const {
     if (node == nullptr) return "(missing)";
     if (node->is_table()) return "{...}";

@@ -7,9 +7,24 @@
 #include <string_view>
 #include <vector>
 
-#include <toml++/toml.h>
-
 #include "scenario.hpp"
+
+namespace lacuna_run {
+/// \throws refusal
+void refuse_syntax(char const* broken);
+}
+
+// A bad file can break what toml++ 3.3 asserts (a table header that ends before its key): with assertions on that would end
+// the program, with assertions off they are promises to the compiler. Here they are refusals; a compiled toml++ has its own.
+#ifdef TOML_ASSERT
+#error "toml++ is to be included by this header only"
+#endif
+#define TOML_HEADER_ONLY 1
+#define TOML_ASSERT(condition) ((condition) ? void(0) : lacuna_run::refuse_syntax(#condition))
+#pragma push_macro("NDEBUG")
+#undef NDEBUG
+#include <toml++/toml.h>
+#pragma pop_macro("NDEBUG")
 
 namespace lacuna_run {
 

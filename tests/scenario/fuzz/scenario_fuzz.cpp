@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <string_view>
+
+#include "scenario.hpp"
+
+/// libFuzzer: whatever text it is given, the reader of scenarios accepts it or refuses it with one line.
+extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size) {
+    try {
+        auto const s = lacuna_run::read_scenario({reinterpret_cast<char const*>(data), size}, "input", "");
+        // What is accepted hangs together.
+        for (auto const& p : s.joints.pairs)
+            for (auto const id : p)
+                if (id < 0 || std::size_t(id) >= s.bodies.size()) std::abort();
+        if (s.bodies.radius.size() != s.bodies.size() || s.bodies.velocity.size() != s.bodies.size()) std::abort();
+    } catch (lacuna_run::refusal const& bad) {
+        if (std::string_view(bad.what()).find('\n') != std::string_view::npos) std::abort();
+    }
+    return 0;
+}
