@@ -238,7 +238,14 @@ void particle_runner<Model>::run(output_directory const& out) {
         auto const& set = scenario_.simulation;
         double const left = set.steps ? double(*set.steps - sim_->steps())
                                       : std::ceil((*set.end_time - sim_->time()) / sim_->time_step());
-        sim_->run(std::max(1LL, (long long)(std::min(left, 1e15))), watch);
+        try {
+            sim_->run(std::max(1LL, (long long)(std::min(left, 1e15))), watch);
+        } catch (lacuna::unstable_run const&) {
+            // The step that was not finished may have broken bonds.
+            for (auto const& e : sim_->events())
+                if (e.step == sim_->steps()) watch.on_break(e, *sim_);
+            throw;
+        }
     }
 }
 
