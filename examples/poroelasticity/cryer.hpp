@@ -105,7 +105,7 @@ private:
     static double effective_radius(discs const& p) {
         auto const points = lacuna::view_points(p.position);
         auto const mesh = lacuna::triangulate_body(points, p.radius.data());
-        return std::sqrt(lacuna::mesh_area<double>(mesh, points) / std::numbers::pi);
+        return std::sqrt(lacuna::mesh_size<double>(mesh, points) / std::numbers::pi);
     }
 
     discs packing_;

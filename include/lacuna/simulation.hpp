@@ -219,7 +219,9 @@ public:
         ar(store_, loads_);
         interactions_archive::apply(ar, interactions_, store_);
         walls_.archive(ar, store_);
-        ar(fluid_, events_, kicked_, ledger_, growth_, time_step_, moved_, step_, planned_steps_, planned_end_);
+        ar(fluid_, events_, kicked_, motions_, ledger_, growth_, time_step_, moved_, step_, planned_steps_, planned_end_);
+        ar(clock_.time, clock_.step, clock_.last, streams_);
+        require_state(motions_.fits(store_.size()), "a motion prescribed to no particle");
         for (auto const& k : kicked_) require_state(k.particle < store_.size(), "a velocity given to no particle");
         require_state(!time_step_ || (*time_step_ > 0 && std::isfinite(*time_step_)), "its time step");
         for (auto const number : {step_, planned_steps_, planned_end_})

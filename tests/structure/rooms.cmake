@@ -43,6 +43,11 @@ set(MOST_DEPTH 7)
 set(EXCEPTIONS
   # core/ alone is a chain of five: fields of records of packs of scalars.
   "interactions/interactions.hpp depth"
+  "interactions/force_store.hpp depth"
+  # What bonds and contacts do in a step, on one page.
+  "interactions/interactions.hpp lines"
+  # What all flow solvers share.
+  "pores/flow_base.hpp lines"
   "simulation.hpp depth"
   # A solver is its base, which is the passes over a network, which is a mesh of the plane's geometry.
   "pores/explicit_flow.hpp depth"

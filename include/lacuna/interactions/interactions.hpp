@@ -50,7 +50,11 @@ public:
         Real gap = 0;
         bond_entries_ = make_bonds<BondLaw, bond_entry>(
             store, bonds, [&](std::int32_t i, std::int32_t j) { return parameter_row(store, i, j); }, gap);
-        if (!own.empty()) give_own_rows(store, bond_entries_, own, bond_parameters_);
+        if (!own.empty()) {
+            give_own_rows(store, bond_entries_, own, bond_parameters_);
+            bond_rows_.resize(bonds.size());
+            for (auto const& e : bond_entries_) bond_rows_[std::size_t(e.label)] = e.parameter;
+        }
         for (auto const& pair : bonds) bond_records_.push_back({pair});
         double mean = 0, largest = 0;
         for (Real const r : store.radii()) {
@@ -230,12 +234,20 @@ private:
             contacts_.assign(new_contacts_, store.size(), store.ghost(0), store.ghost(1));
         }
         if (bonds_change) {
-            bonds_.assign(bond_entries_, store.size(), store.ghost(0), store.ghost(1));
-            if constexpr (carries_moment<BondLaw>) moments_.resize(bonds_.slots() * rotation_dim<Dim>);
-            number_bonds(bond_records_, bonds_, store.size());
+            assign_bonds(store);
         }
         broken_.clear();
         build_rows(store);
+    }
+
+    void assign_bonds(store_type const& store) {
+        bonds_.assign(bond_entries_, store.size(), store.ghost(0), store.ghost(1));
+        if constexpr (carries_moment<BondLaw>) moments_.resize(bonds_.slots() * rotation_dim<Dim>);
+        number_bonds(bond_records_, bonds_, store.size());
+    }
+    /// The parameter row of a bond: its own, or its materials'.
+    std::int32_t bond_row(store_type const& store, std::int32_t bond, std::int32_t i, std::int32_t j) const noexcept {
+        return bond_rows_.empty() ? parameter_row(store, i, j) : bond_rows_[std::size_t(bond)];
     }
 
     void build_rows(store_type const& store) {
@@ -283,6 +295,7 @@ private:
     std::vector<Real> moments_; ///< on the first of each bond, by slot; bond laws with moments only
     std::vector<bond_record> bond_records_;
     std::vector<bond_entry> bond_entries_;
+    std::vector<std::int32_t> bond_rows_; ///< of each bond, where bonds have values of their own
     std::vector<contact_entry> old_contacts_, new_contacts_, broken_;
     std::vector<std::vector<pending_event>> chunk_events_;
     std::vector<break_event<Dim>> events_;

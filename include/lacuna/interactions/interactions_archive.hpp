@@ -47,7 +47,7 @@ private:
             auto const& ids = records[std::size_t(b)].particles;
             auto i = store.internal(std::size_t(ids[0])), j = store.internal(std::size_t(ids[1]));
             if (i > j) std::swap(i, j);
-            left.push_back({i, j, pairs.parameter_row(store, i, j), b, {}});
+            left.push_back({i, j, pairs.bond_row(store, b, i, j), b, {}});
             require_state(left.size() < 2 || pair_before(left[left.size() - 2], left.back()), "bonds out of order");
         }
         for (auto const& e : pairs.broken_)
@@ -61,8 +61,7 @@ private:
                            return entry{pair.i, pair.j, pairs.parameter_row(store, pair.i, pair.j), -1, {}};
                        });
         pairs.contacts_.assign(pairs.new_contacts_, store.size(), store.ghost(0), store.ghost(1));
-        pairs.bonds_.assign(left, store.size(), store.ghost(0), store.ghost(1));
-        number_bonds(records, pairs.bonds_, store.size());
+        pairs.assign_bonds(store);
         pairs.build_rows(store);
         pairs.forces_.forget();
     }

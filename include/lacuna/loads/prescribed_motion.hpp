@@ -35,6 +35,13 @@ public:
         ar(rising_);
     }
 
+    /// Whether all motions are of particles below `count`.
+    bool fits(std::size_t count) const noexcept {
+        for (one const& r : rising_)
+            if (r.particle >= count) return false;
+        return true;
+    }
+
     /// Calls set(k, velocity) for each particle whose velocity still changes, with its mean velocity of the step from
     /// `time` to `time + time_step`, s.
     template <class Set>

@@ -212,6 +212,12 @@ public:
     template <class Archive>
     void serialize(Archive& ar) {
         ar(place_, velocity_, surface_speed_, quaternion_, load_, fixed_length{free_}, fixed_length{loaded_});
+        bool turned = torque_.size() > 0;
+        ar(turned);
+        if (turned) {
+            torque_.resize(size());
+            ar(torque_);
+        }
         for (auto const pattern : free_) require_state(pattern < free_patterns, "a particle's free axes");
     }
     /// \}

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <type_traits>
 #include <utility>
 
 #include <lacuna/pores/carry_fluid.hpp>
@@ -28,12 +29,16 @@ public:
         thickness_ = thickness;
         maker_.reset();
         if (parameters.rule == remesh_rule::never) return;
-        maker_ = std::make_shared<Make const>(make);
-        make_ = [](void const* maker, points_view<Real, Dim> x, Real const* r) -> network_type {
-            return (*static_cast<Make const*>(maker))(x, r);
+        using maker = std::decay_t<Make>; // of a function, its pointer
+        maker_ = std::make_shared<maker const>(make);
+        make_ = [](void const* kept, points_view<Real, Dim> x, Real const* r) -> network_type {
+            return (*static_cast<maker const*>(kept))(x, r);
         };
         accept(flow, points, radii, pairs);
     }
+
+    /// Whether it may give the fluid another mesh.
+    bool on() const noexcept { return maker_ != nullptr; }
 
     /// After step `number`: looks at the mesh when it is time to, and gives the flow solver another one where it has
     /// to. The pressures' forces on the particles are not touched: they change with the next step of the flow.
