@@ -308,7 +308,8 @@ private:
         }
         check_energy(store_, growth_, WithEnergy ? &ledger_.ledger() : nullptr, moved_, smallest_radius_, now());
         if constexpr (has_fluid<Model> && dim == 2)
-            if (changed || step_ % 64 == 63) check_pores(store_, fluid_.get()->network(), now());
+            if (parameters_.remeshing.rule == remesh_rule::never && (changed || step_ % 64 == 63))
+                check_pores(store_, fluid_.get()->network(), now());
         ++step_;
     }
 

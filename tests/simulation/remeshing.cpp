@@ -124,7 +124,8 @@ TEST_CASE("a body sheared by more than its height: the mesh stays valid, the flu
         REQUIRE(most < 1.5 * most_before + 100);
     }
     REQUIRE(meshes > 20);
-    still.run(16000);
+    // With the mesh of the start the run ends where a pore has turned over.
+    REQUIRE_THROWS_WITH(still.run(16000), contains_text("is turned over"));
     REQUIRE(still.flow().ledger().remeshes == 0);
     REQUIRE(turned_over(still) > 0);
     // What the new meshes took out of the compressed fluid has its place in the ledger.

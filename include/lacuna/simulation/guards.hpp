@@ -143,7 +143,8 @@ void check_pores(particle_store<Real, 2> const& store, Network const& net, momen
         throw_unstable(store, now, net.corner[0][p],
                        "pore " + std::to_string(p) + " between particles" + who + " is turned over, its area is " +
                            to_text(double(area)) + " m^2",
-                       "particles have passed each other: the deformation is too large for the pores of the start");
+                       "particles have passed each other: the deformation is too large for the pores of the start; "
+                       "remeshing makes new ones");
     }
 }
 
