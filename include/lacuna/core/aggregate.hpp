@@ -18,7 +18,7 @@ namespace detail {
 /// Stands for a value of any type, in a question to the compiler alone.
 struct any_value {
     template <class T>
-    constexpr operator T() const noexcept;
+    operator T() const noexcept;
 };
 template <class A, std::size_t... I>
 constexpr bool takes(std::index_sequence<I...>) {
