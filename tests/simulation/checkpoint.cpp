@@ -97,7 +97,9 @@ lacuna::simulation<Model> lively(int threads = 1) {
         run.set_velocity(k, v);
         lacuna::vec<double, dim> push{};
         push[0] = 0.1;
-        if (k % 5 == 0) run.apply(k, push, 0, 0.4);
+        lacuna::vec<double, lacuna::rotation_dim<dim>> turn{};
+        turn[0] = 0.01;
+        if (k % 5 == 0) run.apply(k, push, turn, 0.4);
     }
     return run;
 }
