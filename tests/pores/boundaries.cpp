@@ -139,7 +139,7 @@ TEST_CASE("Darcy flow through a triangular lattice of discs, from side to side a
     REQUIRE_THAT(fed.network().sources[1].rate, WithinRel(-q, 1e-9));
 }
 
-TEST_CASE("a loaded surface is chosen by its particles; rules are asked in order") {
+TEST_CASE("a loaded surface is chosen by its particles, rules are asked in order") {
     auto const b = bodies::triangular(4, 6);
     std::vector<std::uint8_t> loaded(b.x.size(), 0);
     for (std::size_t i = 0; i < b.x.size(); ++i)

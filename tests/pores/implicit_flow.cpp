@@ -317,7 +317,7 @@ TEST_CASE("implicit: throats that open a thousandfold are followed") {
     REQUIRE(flow.solver_counters().factorisations == 6);
 }
 
-TEST_CASE("implicit: tractions are those of the pressures; threads change no bit") {
+TEST_CASE("implicit: tractions are those of the pressures, threads change no bit") {
     auto const p = body::settings<implicit_solver>();
     auto const one = stirred<implicit_solver>(20, p);
     auto rest = bodies::scattered(71, 6, 8, 0.7, 0.95);

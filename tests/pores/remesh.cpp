@@ -243,7 +243,7 @@ TEST_CASE("solvers go on from a carried network") {
     check(implicit_solver(bodies::body::settings<implicit_solver>(), made_with(b, b.r), 1.0, b.points(), b.r.data()));
 }
 
-TEST_CASE("what makes a mesh unfit: a turned triangle, a filled pore, a contact without an edge; each once") {
+TEST_CASE("what makes a mesh unfit: a turned triangle, a filled pore, a contact without an edge, each once") {
     auto const rest = square();
     auto const net = made(rest, {{0, 1, 2}, {0, 2, 3}});
     mesh_watch<double> watch;

@@ -141,7 +141,8 @@ TEST_CASE("each number of interactions, damping, walls, apertures, flow", "[refu
                           {"x.minimum_volume_fraction", rule::open_share},
                           {"x.minimum_pressure", rule::below},
                           {"x.initial_pressure", rule::finite},
-                          {"x.skip_ratio", rule::most}};
+                          {"x.skip_ratio", rule::most},
+                          {"x.merge_conductance", rule::most}};
     for (auto const& a : aperture) flow.push_back({"x.aperture." + a.name, a.law});
     check_named(lacuna::flow_parameters<lacuna::contact_force_aperture>{}, flow);
     check_named(lacuna::cubic_crack_aperture::parameters{}, {{"x.residual_aperture", rule::positive}, {"x.hydraulic_factor", rule::open_share}});

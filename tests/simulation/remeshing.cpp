@@ -162,7 +162,7 @@ TEST_CASE("new meshes depend on no number of threads and on no order of input") 
     }
 }
 
-TEST_CASE("explicit flow is given a new mesh like implicit flow; bad intervals are refused") {
+TEST_CASE("explicit flow is given a new mesh like implicit flow, bad intervals are refused") {
     auto sim = make_shear<sheared_explicitly>({remesh_rule::when_needed, 20});
     sim.run(4000);
     REQUIRE(sim.flow().ledger().remeshes > 0);
