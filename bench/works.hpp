@@ -67,6 +67,8 @@ lacuna::simulation_parameters<Model> work_parameters(int threads = 1) {
         p.flow.conductivity = f.conductivity;
         p.flow.minimum_volume_fraction = f.minimum_volume_fraction;
         p.flow.aperture = {f.residual_aperture, f.half_force, 1.0};
+        // Discs of the squeezed sheet pass each other.
+        p.remeshing = {lacuna::remesh_rule::when_needed, 1000};
     }
     return p;
 }
