@@ -138,12 +138,12 @@ void save_picture(std::string const& path, outcome const& o) {
     double const height = 240, top = 106;
     double const widest = 300, width = std::clamp(height * body.width() / body.height(), 60.0, widest);
     double const plot = 30 + width + 165;
-    lacuna::save_canvas(path, plot + 360, top + height + 62, [&](canvas& page) {
+    lacuna::save_canvas(path, plot + 360, top + height + 80, [&](canvas& page) {
         page.clear({1, 1, 1});
         page.text({30, 30}, o.title, 1.25 * em, ink, lacuna::text_align::left, true);
         draw_field(page, o.field, {30, top, 30 + width, top + height});
         draw_plot(page, o, {plot, top, plot + 330, top + height});
-        page.text({plot + 330, top + height + 44}, "line: reference, circles: run", 0.9 * em, ink,
+        page.text({plot + 330, top + height + 64}, "line: reference, circles: run", 0.9 * em, ink,
                   lacuna::text_align::right);
     });
 }
