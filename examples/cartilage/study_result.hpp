@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <lacuna/particles/cartilage_specimen_types.hpp>
+
+/// \file
+/// What a study found, as plain data: between the runs and the report. Loads in MPa, all else in SI units.
+
+namespace cartilage {
+
+/// One break, as a study keeps it.
+struct study_crack {
+    double time = 0; ///< s
+    double x = 0;    ///< m, from the left side
+    double y = 0;    ///< m, from the bottom
+    bool shear = false; ///< else tension
+    int fibre = -1;
+};
+
+/// Damage of one layer at the end of a probe.
+struct study_layer {
+    std::string zone;
+    int layer = 0;
+    int bonds = 0;
+    int broken = 0;
+    std::optional<double> half_broken_time; ///< s, when half of its bonds had broken
+};
+
+/// A run of one packing at one load.
+struct probe {
+    double load_MPa = 0;
+    double end_time = 0;                     ///< s
+    std::string ended;                       ///< "duration", "quiet", "limit", "first_crack", "capacity" or "complete"
+    std::optional<double> first_crack_time;  ///< s
+    double broken_fraction = 0;              ///< broken bonds over bonds, at the end
+    double first_layer_fraction = 0;         ///< the same of the first layer (MODEL.md: top fibre, top fifth, centre fibre)
+    double cut_fraction = 0;                 ///< fibres with a broken bond over fibres
+    double peak_pore_pressure = 0;           ///< Pa
+    double energy_residual_fraction = 0;     ///< of the ledger, over its largest term
+    std::optional<std::string> invalid;      ///< why the run does not count; none: it does
+    std::vector<study_crack> cracks;         ///< in order of time
+    std::vector<study_layer> layers;
+
+    /// Whether it ran until its time was over, so that its damage is the damage of that load.
+    bool whole() const { return ended == "duration" || ended == "quiet" || ended == "limit"; }
+};
+
+/// The three loads of one packing; none: not within the range of loads.
+struct thresholds {
+    std::optional<double> first_crack_MPa; ///< lowest load with a broken bond
+    std::optional<double> capacity_MPa;    ///< lowest load at which the first layer has half of its bonds broken
+    std::optional<double> complete_MPa;    ///< lowest load at which 90 % of the fibres are cut
+};
+
+/// All that is known of one packing.
+struct packing_result {
+    lacuna::cartilage_zone zone = lacuna::cartilage_zone::surface;
+    std::uint64_t seed = 1;
+    thresholds found;
+    std::vector<probe> probes; ///< by load
+};
+
+struct study_result {
+    double lowest_MPa = 5, highest_MPa = 1000, resolution = 0.02;
+    std::string choices; ///< the open choices that were used, as text "name = value", one a line
+    std::string code;    ///< version of the code that ran
+    std::vector<packing_result> packings; ///< by zone, then seed
+};
+
+} // namespace cartilage
