@@ -5,8 +5,11 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <fstream>
+#include <iterator>
 #include <string_view>
 #include <system_error>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -23,8 +26,9 @@ constexpr char const* version_text = "cartilage, Lacuna " CARTILAGE_TEXT(LACUNA_
 
 /// The command line as written, before it is understood.
 struct words {
-    std::string zone, preset = "literal", load, seed = "1", length = "120", height = "300", duration, threads = "1";
-    std::string out, picture_every;
+    std::string zone, preset = "literal", load, seed = "1", length, height, duration, threads = "1";
+    std::string out, picture_every, file;
+    std::vector<std::string> set;
     bool dry = false, quiet = false, force = false;
 };
 
@@ -48,22 +52,57 @@ Integer whole_number(char const* option, std::string const& word, Integer least,
     return value;
 }
 
+void add_choice_options(CLI::App& app, words& w) {
+    app.add_option("--preset", w.preset, "literal: as the paper says; lattice: equal radii, no chance (literal)")
+        ->type_name("NAME");
+    app.add_option("--choices", w.file, "file of choices that differ from the preset, a line 'name = value' each")
+        ->type_name("FILE");
+    app.add_option("--set", w.set, "one choice that differs; may be repeated")
+        ->type_name("NAME=VALUE")
+        ->take_all()
+        ->allow_extra_args(false);
+}
+
 void add_specimen_options(CLI::App& app, words& w) {
     app.add_option("--zone", w.zone, "surface, middle, deep or whole")->required()->type_name("ZONE");
     app.add_option("--seed", w.seed, "of the packing (1)")->type_name("N");
-    app.add_option("--length", w.length, "of the specimen, horizontal (120)")->type_name("UM");
-    app.add_option("--height", w.height, "of the specimen (300)")->type_name("UM");
-    app.add_option("--preset", w.preset, "literal: as the paper says; lattice: equal radii, no chance (literal)")
-        ->type_name("NAME");
+    app.add_option("--length", w.length, "of the specimen, horizontal (as the choice domain says: 120)")
+        ->type_name("UM");
+    app.add_option("--height", w.height, "of the specimen (as the choice domain says: 300)")->type_name("UM");
+    add_choice_options(app, w);
     app.add_option("--out", w.out, "directory for the results (named after zone, load and seed)")->type_name("DIR");
     app.add_flag("--force", w.force, "replace the results that are in DIR");
     app.add_flag("--quiet", w.quiet, "no progress, no table");
 }
 
-lacuna::specimen_preset preset_of(std::string const& name) {
-    if (name == "literal") return lacuna::specimen_preset::literal;
-    if (name == "lattice") return lacuna::specimen_preset::lattice;
-    refuse("--preset", name, "literal or lattice");
+std::string contents_of(std::string const& path) {
+    std::ifstream file(path, std::ios::binary);
+    std::string text{std::istreambuf_iterator<char>(file), {}};
+    if (!file) refuse("--choices", path, "a file that can be read");
+    return text;
+}
+
+/// The choices of preset, file and single settings, in this order.
+choices understand_choices(words const& w) {
+    choices c;
+    try {
+        c = preset_choices(w.preset);
+    } catch (std::invalid_argument const&) {
+        std::string names;
+        for (auto name : preset_names()) names += (names.empty() ? "" : " or ") + std::string(name);
+        refuse("--preset", w.preset, names.c_str());
+    }
+    if (!w.file.empty()) set_choices(c, contents_of(w.file), w.file);
+    for (std::string const& one : w.set) {
+        try {
+            set_choice(c, one);
+        } catch (std::invalid_argument const& bad) {
+            throw usage_error(std::string("--set: ") + bad.what());
+        }
+    }
+    if (!w.duration.empty()) c.duration = positive_number("--duration", w.duration, "a number of nanoseconds > 0");
+    validate(c);
+    return c;
 }
 
 options understand(words const& w, command what) {
@@ -74,17 +113,21 @@ options understand(words const& w, command what) {
     } catch (std::invalid_argument const&) {
         refuse("--zone", w.zone, "surface, middle, deep or whole");
     }
-    o.preset = preset_of(w.preset);
+    o.preset = w.preset;
+    o.open = understand_choices(w);
+    if (o.open.duration > 0) o.duration_ns = o.open.duration;
     std::uint64_t const largest_seed = UINT64_MAX;
     o.seed = whole_number<std::uint64_t>("--seed", w.seed, 0, largest_seed, "a whole number >= 0");
-    o.length_um = positive_number("--length", w.length, "a number of micrometres > 0");
-    o.height_um = positive_number("--height", w.height, "a number of micrometres > 0");
+    bool const tall = o.open.domain == domain_rule::tall;
+    auto const extent = [](char const* option, std::string const& word, double plain) {
+        return word.empty() ? plain : positive_number(option, word, "a number of micrometres > 0");
+    };
+    o.length_um = extent("--length", w.length, tall ? 120 : 300);
+    o.height_um = extent("--height", w.height, tall ? 300 : 120);
     o.quiet = w.quiet;
     o.force = w.force;
     if (what == command::run) {
         o.load_MPa = positive_number("--load", w.load, "a number of MPa > 0");
-        if (!w.duration.empty())
-            o.duration_ns = positive_number("--duration", w.duration, "a number of nanoseconds > 0");
         o.threads = whole_number<int>("--threads", w.threads, 1, 1024, "a whole number from 1 to 1024");
         if (!w.picture_every.empty())
             o.picture_every = whole_number<long long>("--picture-every", w.picture_every, 1, 1LL << 60,
@@ -101,8 +144,10 @@ options understand(words const& w, command what) {
         o.specimen().validate();
     } catch (std::invalid_argument const& bad) {
         std::string const what_m = std::string(bad.what()) + " m";
-        if (what_m.rfind("specimen.height", 0) == 0) throw usage_error("--height " + w.height + ": " + what_m);
-        if (what_m.rfind("specimen.length", 0) == 0) throw usage_error("--length " + w.length + ": " + what_m);
+        if (what_m.rfind("specimen.height", 0) == 0)
+            throw usage_error("--height " + lacuna::to_text(o.height_um) + ": " + what_m);
+        if (what_m.rfind("specimen.length", 0) == 0)
+            throw usage_error("--length " + lacuna::to_text(o.length_um) + ": " + what_m);
         throw usage_error(bad.what());
     }
     return o;
@@ -113,10 +158,21 @@ options understand(words const& w, command what) {
 lacuna::cartilage_specimen_parameters options::specimen() const {
     lacuna::cartilage_specimen_parameters p;
     p.zone = zone;
-    p.preset = preset;
+    p.preset = open.packing == packing_rule::lattice ? lacuna::specimen_preset::lattice
+                                                     : lacuna::specimen_preset::literal;
     p.length = length_um / 1e6;
     p.height = height_um / 1e6;
     p.seed = seed;
+    if (open.radii == radius_rule::equal) p.r_min = p.r_max = p.diameter() / 2;
+    p.fibre_spacing = open.fibre_spacing;
+    p.middle_fibre_length = open.middle_fibre_length * 1e-6;
+    p.deep_fraction = open.deep_fraction;
+    p.surface_fraction = open.surface_fraction;
+    p.middle_fraction = 1 - open.deep_fraction - open.surface_fraction;
+    p.fill = open.fill;
+    p.contact_tolerance = open.contact_tolerance;
+    p.thickness = open.thickness / 1e6;
+    p.wall_distance = open.wall_distance;
     return p;
 }
 

@@ -22,10 +22,6 @@ namespace {
 
 volatile std::sig_atomic_t stop_requested = 0;
 
-constexpr double longest_run = 40e-9;   // s, without --duration
-constexpr double quiet_time = 20e-9;    // s without a break
-constexpr double quiet_fraction = 1e-3; // of the largest kinetic energy
-
 template <class Simulation>
 std::vector<lacuna::scene::pore> pores_of([[maybe_unused]] Simulation const& sim) {
     std::vector<lacuna::scene::pore> pores;
@@ -97,9 +93,9 @@ public:
 private:
     bool is_quiet(double kinetic, double time) {
         highest_kinetic_ = std::max(highest_kinetic_, kinetic);
-        if (options_.duration_ns || !(kinetic < quiet_fraction * highest_kinetic_)) return false;
+        if (options_.duration_ns || !(kinetic < options_.open.quiet_fraction * highest_kinetic_)) return false;
         double const last_break = result_.cracks.empty() ? 0.0 : result_.cracks.back().time;
-        if (time - last_break < quiet_time) return false;
+        if (time - last_break < options_.open.quiet_time * 1e-9) return false;
         result_.ended = "quiet";
         return true;
     }
@@ -116,14 +112,14 @@ private:
 template <class Model>
 run_result follow(specimen const& s, options const& o, output_directory& out, std::FILE* progress,
                   lacuna::scene& damage) {
-    auto parameters = model_parameters<Model>(s, o.specimen().contact_tolerance);
+    auto parameters = model_parameters<Model>(s, o.open);
     parameters.threads = o.threads;
     lacuna::simulation<Model> sim(s.discs, parameters);
-    set_up(sim, s, o.load_MPa * 1e6);
+    set_up(sim, s, o.load_MPa * 1e6, o.open);
 
     run_result result;
     result.specimen = report_of(s);
-    double const duration = o.duration_ns ? *o.duration_ns * 1e-9 : longest_run;
+    double const duration = o.duration_ns.value_or(o.open.longest) * 1e-9;
     double const steps = std::ceil(duration / sim.time_step() * (1 - 1e-12));
     if (!(steps < 1e15)) throw usage_error("--duration " + lacuna::to_text(duration * 1e9) + ": too many steps");
     result.ended = o.duration_ns ? "duration" : "limit";
