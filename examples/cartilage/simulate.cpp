@@ -163,6 +163,7 @@ run_result follow(specimen const& s, options const& o, output_directory& out, st
 } // namespace
 
 void request_stop() noexcept { stop_requested = 1; }
+bool stop_is_requested() noexcept { return stop_requested != 0; }
 
 run_result simulate(specimen const& s, options const& o, output_directory& out, std::FILE* progress,
                     lacuna::scene& damage) {
