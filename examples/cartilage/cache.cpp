@@ -33,11 +33,8 @@ std::string_view code_version() { return CARTILAGE_CODE_VERSION; }
 std::string key_of(options const& o) {
     std::string key = "code " + std::string(code_version()) + "\nzone " + std::string(lacuna::to_string(o.zone));
     key += "\nseed " + std::to_string(o.seed);
-    key += std::string("\npreset ") + (o.preset == lacuna::specimen_preset::literal ? "literal" : "lattice");
     key += "\nlength_um " + lacuna::to_text(o.length_um) + "\nheight_um " + lacuna::to_text(o.height_um);
-    key += "\nduration_ns " + (o.duration_ns ? lacuna::to_text(*o.duration_ns) : "until quiet");
-    key += o.dry ? "\ndry\n" : "\nwet\n";
-    return key;
+    return key + (o.dry ? "\ndry\n" : "\nwet\n") + text_of(o.open, true);
 }
 
 result_cache::result_cache(std::string const& directory) : directory_(directory) {

@@ -2,18 +2,17 @@
 #include "pool.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <exception>
 #include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
-#include <thread>
 #include <utility>
 
 #include <lacuna/observe/progress.hpp>
 
 #include "cache.hpp"
+#include "jobs.hpp"
 #include "probe.hpp"
 #include "simulate.hpp"
 
@@ -76,17 +75,6 @@ private:
     std::size_t runs_ = 0, kept_ = 0;
 };
 
-/// Median of loads where none is above all others; empty text without any.
-std::string median_text(std::vector<std::optional<double>> loads) {
-    if (loads.empty()) return "?";
-    std::sort(loads.begin(), loads.end(), [](auto const& a, auto const& b) { return a && (!b || *a < *b); });
-    auto const& middle = loads[(loads.size() - 1) / 2];
-    if (!middle) return "-";
-    char digits[32];
-    std::snprintf(digits, sizeof digits, "%.0f", *middle);
-    return digits;
-}
-
 /// "surface 31/80/-": medians of the three loads of what is done so far.
 std::string medians(std::vector<std::optional<packing_result>> const& done) {
     std::string text;
@@ -106,32 +94,17 @@ std::string medians(std::vector<std::optional<packing_result>> const& done) {
     return text.empty() ? text : text + " MPa";
 }
 
-/// Lets `jobs` threads take numbers 0 to count-1 until all are taken or one of them throws.
-template <class Work>
-void share_out(std::size_t count, int jobs, Work const& work) {
-    std::atomic<std::size_t> next{0};
-    std::atomic<bool> failed{false};
-    std::exception_ptr failure;
-    std::mutex guard;
-    auto const take = [&] {
-        for (std::size_t k = next++; k < count && !failed; k = next++) {
-            try {
-                work(k);
-            } catch (...) {
-                std::lock_guard const lock(guard);
-                if (!failed.exchange(true)) failure = std::current_exception();
-            }
-        }
-    };
-    std::vector<std::thread> threads;
-    std::size_t const wanted = std::min(std::size_t(jobs), count);
-    for (std::size_t t = 1; t < wanted; ++t) threads.emplace_back(take);
-    take();
-    for (auto& t : threads) t.join();
-    if (failure) std::rethrow_exception(failure);
-}
-
 } // namespace
+
+std::string median_text(std::vector<std::optional<double>> loads) {
+    if (loads.empty()) return "?";
+    std::sort(loads.begin(), loads.end(), [](auto const& a, auto const& b) { return a && (!b || *a < *b); });
+    auto const& middle = loads[(loads.size() - 1) / 2];
+    if (!middle) return "-";
+    char digits[32];
+    std::snprintf(digits, sizeof digits, "%.0f", *middle);
+    return digits;
+}
 
 std::vector<packing_result> run_packings(std::vector<packing_request> const& requests, pool_options const& how) {
     result_cache const cache(how.cache);
@@ -163,8 +136,7 @@ std::vector<packing_result> run_packings(std::vector<packing_request> const& req
         return "packings " + std::to_string(finished + report.packings_kept) + "/" + std::to_string(requests.size()) +
                ", runs " + std::to_string(report.runs) + "  " + medians(done);
     };
-    int const jobs = how.jobs > 0 ? how.jobs : std::max(1, int(std::thread::hardware_concurrency()));
-    share_out(open.size(), jobs, [&](std::size_t k) {
+    share_out(open.size(), how.jobs, [&](std::size_t k) {
         packing_request const& request = requests[open[k]];
         packing_runs runs(request.model, cache);
         packing_result result = find_thresholds(request.loads, [&](double load_MPa, question q) {
