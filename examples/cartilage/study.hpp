@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <vector>
+
+#include "pool.hpp"
 #include "study_options.hpp"
 #include "study_result.hpp"
 
