@@ -230,6 +230,9 @@ void validate(choices const& c) {
     for (choice_field const& f : choice_fields()) f.validate(f.get(c));
     double const ends = c.deep_fraction + c.surface_fraction;
     if (!(ends <= 0.9)) lacuna::refuse("deep_fraction + surface_fraction", ends, "at most 0.9");
+    if (c.minimum_pressure > -infinity && (c.bond_moment > 0 || flows_fast(c)))
+        lacuna::refuse("minimum_pressure", c.minimum_pressure,
+                       "-inf with a bond_moment or a conductivity above 1e-6, where the fluid is solved implicitly");
 }
 
 std::string text_of(choices const& c, bool all) {

@@ -106,6 +106,9 @@ choice_field const& find_choice(std::string_view name);
 /// \throws std::invalid_argument naming the field, the value and the rule
 void validate(choices const& c);
 
+/// Whether the fluid may flow too fast for the explicit scheme's steps: it is solved implicitly then.
+inline bool flows_fast(choices const& c) { return c.conductivity > 1e-6; }
+
 /// Lines "name = value\n" in the order of the table; without `all` only those that differ from the defaults.
 std::string text_of(choices const& c, bool all = false);
 

@@ -238,7 +238,8 @@ TEST_CASE("without a moment it is the paper's bond, run by run", "[moment]") {
         sim.fix(0);
         sim.apply(4, {-3, 20});
         sim.run(600);
-        REQUIRE(std::any_of(sim.pairs().bonds().begin(), sim.pairs().bonds().end(), [](auto const& b) { return b.state != lacuna::bond_state::intact; }));
+        REQUIRE(std::any_of(sim.pairs().bond_records().begin(), sim.pairs().bond_records().end(),
+                            [](auto const& b) { return b.state != lacuna::bond_state::intact; }));
         std::vector<double> found;
         for (std::size_t id = 0; id < 5; ++id) {
             found.push_back(sim.position(id)[0]);
