@@ -15,9 +15,9 @@ namespace cartilage {
 
 /// One break, as a study keeps it.
 struct study_crack {
-    double time = 0; ///< s
-    double x = 0;    ///< m, from the left side
-    double y = 0;    ///< m, from the bottom
+    double time = 0;    ///< s
+    double x = 0;       ///< m, from the left side
+    double y = 0;       ///< m, from the bottom
     bool shear = false; ///< else tension
     int fibre = -1;
 };
@@ -34,16 +34,16 @@ struct study_layer {
 /// A run of one packing at one load.
 struct probe {
     double load_MPa = 0;
-    double end_time = 0;                     ///< s
-    std::string ended;                       ///< "duration", "quiet", "limit", "first_crack", "capacity" or "complete"
-    std::optional<double> first_crack_time;  ///< s
-    double broken_fraction = 0;              ///< broken bonds over bonds, at the end
-    double first_layer_fraction = 0;         ///< the same of the first layer (MODEL.md: top fibre, top fifth, centre fibre)
-    double cut_fraction = 0;                 ///< fibres with a broken bond over fibres
-    double peak_pore_pressure = 0;           ///< Pa
-    double energy_residual_fraction = 0;     ///< of the ledger, over its largest term
-    std::optional<std::string> invalid;      ///< why the run does not count; none: it does
-    std::vector<study_crack> cracks;         ///< in order of time
+    double end_time = 0;                    ///< s
+    std::string ended;                      ///< "duration", "quiet", "limit", "first_crack", "capacity" or "complete"
+    std::optional<double> first_crack_time; ///< s
+    double broken_fraction = 0;             ///< broken bonds over bonds, at the end
+    double first_layer_fraction = 0;     ///< the same of the first layer (MODEL.md: top fibre, top fifth, centre fibre)
+    double cut_fraction = 0;             ///< fibres with a broken bond over fibres
+    double peak_pore_pressure = 0;       ///< Pa
+    double energy_residual_fraction = 0; ///< of the ledger, over its largest term
+    std::optional<std::string> invalid;  ///< why the run does not count; none: it does
+    std::vector<study_crack> cracks;     ///< in order of time
     std::vector<study_layer> layers;
 
     /// Whether it ran until its time was over, so that its damage is the damage of that load.
@@ -67,8 +67,8 @@ struct packing_result {
 
 struct study_result {
     double lowest_MPa = 5, highest_MPa = 1000, resolution = 0.02;
-    std::string choices; ///< the open choices that were used, as text "name = value", one a line
-    std::string code;    ///< version of the code that ran
+    std::string choices;                  ///< the open choices that were used, as text "name = value", one a line
+    std::string code;                     ///< version of the code that ran
     std::vector<packing_result> packings; ///< by zone, then seed
 };
 
