@@ -147,8 +147,8 @@ std::vector<figure> draw_damage_figures(std::string const& directory, study_resu
         f.sentence += "up to " + number_text("%.1f", most) + " % broken.";
         if (middle.size() > 1)
             f.sentence += " The median goes from " + number_text("%.1f", middle.front()[1]) + " % at " +
-                          number_text("%.3g", middle.front()[0]) + " MPa to " + number_text("%.1f", middle.back()[1]) +
-                          " % at " + number_text("%.3g", middle.back()[0]) + " MPa.";
+                          load_number(middle.front()[0]) + " MPa to " + number_text("%.1f", middle.back()[1]) +
+                          " % at " + load_number(middle.back()[0]) + " MPa.";
         figures.push_back(std::move(f));
     }
     return figures;

@@ -20,12 +20,12 @@ using lacuna::plot;
 using lacuna::plot_mark;
 using lacuna::rectangle;
 
-constexpr double width = 560, height = 690;
-constexpr rectangle upper{68, 62, 540, 330}, lower{68, 386, 540, 636};
+constexpr double width = 560, height = 722;
+constexpr rectangle upper{68, 62, 540, 330}, lower{68, 418, 540, 668};
 constexpr lacuna::color stress_ink{0.13, 0.13, 0.15}, pressure_ink{0.10, 0.35, 0.75};
 
 std::string title_of(snapshot const& s) {
-    return zone_title(s.zone) + ", " + number_text("%.3g", s.run.load_MPa) + " MPa (Figure " + s.figure + ")";
+    return zone_title(s.zone) + ", " + load_number(s.run.load_MPa) + " MPa (Figure " + s.figure + ")";
 }
 
 std::string damage_words(snapshot const& s) {

@@ -16,8 +16,8 @@ using lacuna::legend_mark;
 using lacuna::plot;
 using lacuna::plot_mark;
 
-constexpr double width = 560, height = 690;
-constexpr lacuna::rectangle upper{68, 62, 540, 330}, lower{68, 386, 540, 636};
+constexpr double width = 560, height = 722;
+constexpr lacuna::rectangle upper{68, 62, 540, 330}, lower{68, 418, 540, 668};
 constexpr lacuna::color elastic_ink{0.10, 0.35, 0.75}, slow_ink{0.80, 0.30, 0.10};
 constexpr double elastic_ns = 1e9 * first_crack_times::elastic_until;
 
@@ -33,7 +33,7 @@ std::string sentence_of(first_crack_times const& t) {
     std::string words = std::to_string(t.elastic.size()) + " of " + count_text(t.count(), "first crack") +
                         " came within " + number_text("%.3g", elastic_ns) + " ns (elastic).";
     if (t.slow.empty()) return words;
-    words += " Of the later ones t sqrt(P) is " + number_text("%.3g", t.product) + " ns sqrt(MPa) (quartiles " +
+    words += " Of the later ones t √P is " + number_text("%.3g", t.product) + " ns √MPa (quartiles " +
              number_text("%.3g", t.product_low) + " to " + number_text("%.3g", t.product_high) + ")";
     if (t.slope) {
         words += ", and within a packing t goes as P to the power " + number_text("%.2f", *t.slope);
@@ -42,7 +42,7 @@ std::string sentence_of(first_crack_times const& t) {
                      : "; -0.50 would make the product constant";
     }
     words += ". At that product a run of " + number_text("%.3g", t.longest_run) + " ns cracks from " +
-             number_text("%.2g", std::pow(t.product / t.longest_run, 2)) + " MPa on.";
+             load_number(std::pow(t.product / t.longest_run, 2)) + " MPa on.";
     return words;
 }
 
@@ -70,7 +70,7 @@ void draw(canvas& page, first_crack_times const& t) {
     times.draw_axes();
     times.markers(t.elastic, plot_mark::disc, elastic_ink, 3.2);
     times.markers(t.slow, plot_mark::ring, slow_ink, 3.2);
-    plot below(page, lower, loads, log_axis(product, "the same times sqrt(P) (ns sqrt(MPa))"), figure_style);
+    plot below(page, lower, loads, log_axis(product, "time times √load (ns √MPa)"), figure_style);
     if (t.product > 0) below.box(loads.low, loads.high, t.product_low, t.product_high, {0.80, 0.30, 0.10, 0.12});
     below.draw_axes();
     below.markers(products(t.elastic), plot_mark::disc, elastic_ink, 3.2);
@@ -87,7 +87,7 @@ void draw(canvas& page, first_crack_times const& t) {
     lacuna::draw_legend_row(page, {upper.left, 20}, width - upper.left,
                             {{legend_mark::disc, elastic_ink, "elastic"},
                              {legend_mark::ring, slow_ink, "later (kinematic)"},
-                             {legend_mark::dashes, slow_ink, "t sqrt(P) constant"}},
+                             {legend_mark::dashes, slow_ink, "t √P constant"}},
                             0.9 * figure_style.text_size, figure_style.ink);
 }
 

@@ -165,7 +165,7 @@ std::string limits(study_result const& study, std::vector<table3_cell> const& ce
     lines.push_back(
         "The median damage is drawn where at least half of the packings have whole runs on both sides; runs "
         "that stopped early, at high loads, are not in it.");
-    lines.push_back("Where t sqrt(P) is constant a load depends on how long one waits: see the first cracks below 2 ns "
+    lines.push_back("Where t √P is constant a load depends on how long one waits: see the first cracks below 2 ns "
                     "for what the load itself breaks.");
     lines.push_back("Snapshots and fronts are single runs of one packing each, not medians.");
     std::string text = heading("Limits") + "<ul>\n";

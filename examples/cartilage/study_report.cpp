@@ -45,7 +45,7 @@ void write_report(std::string const& directory, study_result const& study) {
          draw_damage_figures(directory, study)},
         {"Time of the first crack",
          "Two mechanisms compete. Elastic waves break bonds within about 2 ns, if the load is large enough. Free "
-         "particles that flow out break them later; then t sqrt(P) is constant, and any load cracks if one waits.",
+         "particles that flow out break them later; then t √P is constant, and any load cracks if one waits.",
          draw_first_crack_figures(directory, study)},
         {"Where bonds break",
          "All breaks of each packing's telling run: the one at its capacity, else the one with most breaks.",

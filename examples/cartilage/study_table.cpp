@@ -85,12 +85,16 @@ std::vector<table3_cell> table3(study_result const& study) {
     return cells;
 }
 
+std::string load_number(double load_MPa) {
+    char buffer[32];
+    std::snprintf(buffer, sizeof buffer, load_MPa < 9.995 ? "%.2f" : (load_MPa < 99.95 ? "%.1f" : "%.0f"), load_MPa);
+    return buffer;
+}
+
 std::string load_text(double load_MPa, study_result const& study) {
     if (std::isinf(load_MPa)) return "> " + lacuna::to_text(study.highest_MPa);
     if (load_MPa <= study.lowest_MPa * (1 + 1e-9)) return "<= " + lacuna::to_text(study.lowest_MPa);
-    char buffer[32];
-    std::snprintf(buffer, sizeof buffer, load_MPa < 100 ? "%.1f" : "%.0f", load_MPa);
-    return buffer;
+    return load_number(load_MPa);
 }
 
 std::string table3_csv(std::vector<table3_cell> const& cells, study_result const& study) {

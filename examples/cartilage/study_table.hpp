@@ -47,7 +47,10 @@ struct table3_cell {
 /// at the highest load shows it, and as invalid else.
 std::vector<table3_cell> table3(study_result const& study);
 
-/// A load in words: three significant digits, "> 1000" above the range, "<= 5" at its lower end, where nothing lower
+/// A load in MPa to three significant digits, never with a power of ten.
+std::string load_number(double load_MPa);
+
+/// A load in words: its number, "> 1000" above the range, "<= 5" at its lower end, where nothing lower
 /// was tried.
 std::string load_text(double load_MPa, study_result const& study);
 
