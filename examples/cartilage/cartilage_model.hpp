@@ -9,6 +9,8 @@
 #include <lacuna/pores/triangulation.hpp>
 #include <lacuna/simulation.hpp>
 
+#include "choices.hpp"
+
 /// \file
 /// The model of the paper, put together from the library's parts, and its numbers (Tables 1 and 2).
 
@@ -37,15 +39,16 @@ typename Parameters::material material(double density, double stiffness, double 
 /// walls beside the specimen, a time step of 0.4 of the rigorous bound.
 template <class Model>
 lacuna::simulation_parameters<Model> model_parameters(lacuna::cartilage_specimen<double> const& s,
-                                                      double contact_tolerance) {
+                                                      choices const& open) {
     using parameters = lacuna::simulation_parameters<Model>;
     parameters p;
-    p.materials = {material<parameters>(1000, 2.0e8, 0.1, 2e8), material<parameters>(2000, 2.0e8, 0.1, 2e8),
-                   material<parameters>(2500, 2.1e8, 0.1, 9e8), material<parameters>(3000, 2.2e8, 0.1, 1e9)};
+    double const mu = open.friction;
+    p.materials = {material<parameters>(1000, 2.0e8, mu, 2e8), material<parameters>(2000, 2.0e8, mu, 2e8),
+                   material<parameters>(2500, 2.1e8, mu, 9e8), material<parameters>(3000, 2.2e8, mu, 1e9)};
     p.thickness = s.thickness;
     p.safety = 0.4;
     // The generator lets neighbours overlap by its tolerance, or leave gaps up to twice that: both are contacts.
-    p.interactions.initial_contact_tolerance = 2 * contact_tolerance;
+    p.interactions.initial_contact_tolerance = 2 * open.contact_tolerance;
     auto const rigid = p.materials.front().contact;
     p.walls = {{{s.wall_left, 0}, {1, 0}, rigid}, {{s.wall_right, 0}, {-1, 0}, rigid}};
     return p;
@@ -62,12 +65,15 @@ struct free_sides_drained {
 /// Holds the bottom row, loads the top row at once, and fills the pores where the model has a fluid.
 /// \param pressure of the load, Pa
 template <class Model>
-void set_up(lacuna::simulation<Model>& sim, lacuna::cartilage_specimen<double> const& s, double pressure) {
+void set_up(lacuna::simulation<Model>& sim, lacuna::cartilage_specimen<double> const& s, double pressure,
+            choices const& open) {
     for (auto id : s.fixed) sim.fix(std::size_t(id));
     for (auto id : s.loaded) {
         double const radius = s.discs.radius[std::size_t(id)];
-        double const force = lacuna::traction_force(pressure, radius, s.thickness, lacuna::traction_area::disc);
-        sim.apply(std::size_t(id), {0, -force});
+        auto const area =
+            open.load_area == area_rule::disc ? lacuna::traction_area::disc : lacuna::traction_area::strip;
+        double const force = lacuna::traction_force(pressure, radius, s.thickness, area);
+        sim.apply(std::size_t(id), {0, -force}, 0, open.ramp_time * 1e-9);
     }
     if constexpr (lacuna::has_fluid<Model>)
         sim.fill_pores([](lacuna::points_view<double, 2> points, double const* radii) {

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdio>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,5 +40,8 @@ struct pool_options {
 /// \throws interruption when request_stop() was called, after what was finished has been kept
 /// \throws std::invalid_argument when a specimen or model cannot be built
 std::vector<packing_result> run_packings(std::vector<packing_request> const& requests, pool_options const& how);
+
+/// Median of loads in MPa for a person's eyes, where none is above all others: "-" when it is none, "?" of nothing.
+std::string median_text(std::vector<std::optional<double>> loads);
 
 } // namespace cartilage

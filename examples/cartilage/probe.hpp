@@ -22,6 +22,9 @@ enum class question : std::uint8_t {
     end          ///< what is there at the end of the run?
 };
 
+/// "first_crack", "capacity", "complete", "end".
+char const* name_of(question q);
+
 /// The run's answer: whether it came to what was asked for. A run that does not count has none.
 bool answers(probe const& p, question q);
 

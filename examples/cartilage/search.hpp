@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <functional>
 
 #include "probe.hpp"
@@ -16,6 +17,8 @@ struct load_range {
     double lowest_MPa = 5;
     double highest_MPa = 1000;
     double resolution = 0.02; ///< largest step of the grid, relative
+    /// Where the search for each question begins, MPa: a guess that saves runs.
+    std::array<double, 3> first_guess{45, 1000, 1000};
 
     /// Number of steps of the grid. \throws std::invalid_argument naming the field, the value and the rule
     int steps() const;
