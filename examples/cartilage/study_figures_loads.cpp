@@ -56,7 +56,7 @@ figure draw_threshold(std::string const& directory, study_result const& study,
     auto const draw = [&](canvas& page) {
         page.clear({1, 1, 1});
         plot plane(page, frame, {-0.5, double(zones.size()) - 0.5, "", axis_scale::linear, 6, ticks},
-                   {0.9 * study.lowest_MPa, 1.5 * study.highest_MPa, "load (MPa)", axis_scale::logarithmic, 8},
+                   {0.8 * study.lowest_MPa, 1.5 * study.highest_MPa, "load (MPa)", axis_scale::logarithmic, 8},
                    figure_style);
         plane.draw_axes();
         lacuna::draw_legend_row(page, {frame.left, 20}, width - frame.left,
@@ -67,7 +67,7 @@ figure draw_threshold(std::string const& directory, study_result const& study,
         plane.rule_y(study.highest_MPa, figure_style.ink, 1);
         for (std::size_t k = 0; k < zones.size(); ++k) {
             table3_cell const& cell = *zones[k];
-            auto const on_page = [&](double load) { return std::isinf(load) ? beyond : load; };
+            auto const on_page = [&](double load) { return std::clamp(load, 0.88 * study.lowest_MPa, beyond); };
             plot::points dots;
             for (std::size_t i = 0; i < cell.loads.size(); ++i) {
                 // Spread sideways in the order of the load, so that equal ones stay visible.

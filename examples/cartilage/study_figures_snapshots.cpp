@@ -97,9 +97,10 @@ void draw_fronts(canvas& page, snapshot const& s, double height_um) {
 std::string front_words(snapshot const& s, double height_um) {
     auto const fronts = arrivals_of(s);
     std::string words;
-    if (fronts.stress_speed) words += "The stress front moves at " + number_text("%.3g", *fronts.stress_speed) + " m/s";
+    if (fronts.stress_speed)
+        words += "The stress front moves at " + number_text("%.3g", 1e-3 * *fronts.stress_speed) + " µm/ns";
     if (fronts.stress_speed && fronts.pressure_speed)
-        words += ", the pressure front at " + number_text("%.3g", *fronts.pressure_speed) + " m/s";
+        words += ", the pressure front at " + number_text("%.3g", 1e-3 * *fronts.pressure_speed) + " µm/ns";
     if (!words.empty()) words += ". ";
     if (auto const b = first_break_of(s, height_um)) {
         words += "At the first break (" + number_text("%.2f", 1e9 * b->time) + " ns, " +

@@ -70,6 +70,18 @@ std::string seeds_text(std::vector<std::uint64_t> seeds) {
     return text;
 }
 
+/// A reason without its numbers, which differ from run to run.
+std::string kind_of(std::string const& reason) {
+    std::string kind;
+    for (std::size_t k = 0; k < reason.size();) {
+        std::size_t const end = reason.find_first_not_of("0123456789.+-e", k);
+        bool const number = reason[k] >= '0' && reason[k] <= '9';
+        kind += number ? "..." : std::string(1, reason[k]);
+        k = number ? std::min(end, reason.size()) : k + 1;
+    }
+    return kind;
+}
+
 std::string what_was_run(study_result const& study) {
     std::vector<std::vector<std::string>> rows;
     std::map<std::string, std::size_t> reasons;
@@ -84,7 +96,7 @@ std::string what_was_run(study_result const& study) {
                 ++zone_runs;
                 zone_whole += p.whole();
                 zone_bad += p.invalid.has_value();
-                if (p.invalid) ++reasons[*p.invalid];
+                if (p.invalid) ++reasons[kind_of(*p.invalid)];
             }
         }
         rows.push_back({std::string(lacuna::to_string(zone)), std::to_string(seeds.size()), seeds_text(seeds),

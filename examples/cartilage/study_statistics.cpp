@@ -29,6 +29,7 @@ double quantile_of_sorted(std::vector<double> const& sorted, double share) {
     // Nothing of the next number: infinite or not, it has no say.
     if (beyond == 0) return sorted[below];
     if (!std::isfinite(sorted[below + 1])) return sorted[below + 1];
+    if (!std::isfinite(sorted[below])) return sorted[below];
     return sorted[below] + beyond * (sorted[below + 1] - sorted[below]);
 }
 

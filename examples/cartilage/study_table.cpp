@@ -20,9 +20,25 @@ std::optional<double> const& load_of(packing_result const& packing, threshold wh
     }
 }
 
-bool held_the_highest_load(packing_result const& packing, study_result const& study) {
-    return std::any_of(packing.probes.begin(), packing.probes.end(),
-                       [&](probe const& p) { return !p.invalid && p.load_MPa >= study.highest_MPa * (1 - 1e-9); });
+bool answers_yes(probe const& p, threshold what) {
+    switch (what) {
+    case threshold::first_crack: return p.first_crack_time.has_value();
+    case threshold::capacity: return p.capacity_time.has_value();
+    default: return p.complete_time.has_value();
+    }
+}
+
+/// The load of a packing; beyond the range, infinite; none where no run that counts decides it.
+std::optional<double> known_load(packing_result const& packing, threshold what, study_result const& study) {
+    constexpr double beyond = std::numeric_limits<double>::infinity();
+    if (auto const& load = load_of(packing, what)) return load;
+    for (probe const& p : packing.probes) {
+        if (p.invalid) continue;
+        bool const yes = answers_yes(p, what);
+        if (p.load_MPa >= study.highest_MPa * (1 - 1e-9) && p.whole() && !yes) return beyond;
+        if (p.load_MPa <= study.lowest_MPa * (1 + 1e-9) && yes) return -beyond;
+    }
+    return std::nullopt;
 }
 
 std::string percent_text(double percent) {
@@ -59,16 +75,16 @@ std::vector<table3_cell> table3(study_result const& study) {
             cell.what = what;
             for (packing_result const& packing : study.packings) {
                 if (packing.zone != zone) continue;
-                if (auto const& load = load_of(packing, what)) {
+                auto const load = known_load(packing, what, study);
+                if (!load) {
+                    ++cell.invalid;
+                    continue;
+                }
+                if (std::isfinite(*load))
                     lacuna::require_in("study.packings.found", *load, study.lowest_MPa * (1 - 1e-9),
                                        study.highest_MPa * (1 + 1e-9));
-                    cell.loads.push_back(*load);
-                } else if (held_the_highest_load(packing, study)) {
-                    cell.loads.push_back(std::numeric_limits<double>::infinity());
-                    ++cell.none;
-                } else {
-                    ++cell.invalid;
-                }
+                cell.loads.push_back(*load);
+                cell.none += *load > study.highest_MPa * (1 + 1e-9);
             }
             std::sort(cell.loads.begin(), cell.loads.end());
             cell.paper = paper_load(zone, what);
@@ -92,8 +108,8 @@ std::string load_number(double load_MPa) {
 }
 
 std::string load_text(double load_MPa, study_result const& study) {
-    if (std::isinf(load_MPa)) return "> " + lacuna::to_text(study.highest_MPa);
-    if (load_MPa <= study.lowest_MPa * (1 + 1e-9)) return "<= " + lacuna::to_text(study.lowest_MPa);
+    if (std::isinf(load_MPa))
+        return load_MPa > 0 ? "> " + lacuna::to_text(study.highest_MPa) : "< " + lacuna::to_text(study.lowest_MPa);
     return load_number(load_MPa);
 }
 

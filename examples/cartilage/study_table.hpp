@@ -10,7 +10,7 @@
 #include "study_statistics.hpp"
 
 /// \file
-/// Table 3 of the paper beside that of a study. Loads in MPa; infinite: above the study's range.
+/// Table 3 of the paper beside that of a study. Loads in MPa; infinite: beyond the study's range of loads.
 
 namespace cartilage {
 
@@ -43,15 +43,14 @@ struct table3_cell {
     int count() const { return int(loads.size()); }
 };
 
-/// The cells of all zones that the study has, zone by zone. A packing without a load counts as "none" where a valid run
-/// at the highest load shows it, and as invalid else.
+/// The cells of all zones that the study has, zone by zone. A packing without a load holds where a valid run at the
+/// highest load says so, has failed where one at the lowest load does, and is invalid else.
 std::vector<table3_cell> table3(study_result const& study);
 
 /// A load in MPa to three significant digits, never with a power of ten.
 std::string load_number(double load_MPa);
 
-/// A load in words: its number, "> 1000" above the range, "<= 5" at its lower end, where nothing lower
-/// was tried.
+/// A load in words: its number, "> 1000" above the range, "< 5" below it.
 std::string load_text(double load_MPa, study_result const& study);
 
 /// The table as CSV, one row per cell; empty where there is no number.

@@ -22,6 +22,8 @@ probe make_probe(std::mt19937_64& random, lacuna::cartilage_zone zone, double lo
     double const first = found.first_crack_MPa.value_or(1e4), complete = found.complete_MPa.value_or(1e4);
     if (load < first) return p;
     p.first_crack_time = load > 6 * first ? 1.2e-9 : 11e-9 * std::sqrt(first / load);
+    if (found.capacity_MPa && load >= *found.capacity_MPa) p.capacity_time = *p.first_crack_time + 1e-10;
+    if (load >= complete) p.complete_time = *p.first_crack_time + 2e-10;
     p.broken_fraction = std::min(0.5, 0.01 + 0.3 * std::log(load / first));
     p.cut_fraction = std::min(1.0, 0.05 + 0.9 * std::log(load / first) / std::log(complete / first));
     p.first_layer_fraction = std::min(1.0, 0.1 + 0.4 * std::log(load / first));
@@ -99,7 +101,8 @@ cartilage::study_result synthetic_study(int seeds) {
     study.code = "synthetic";
     study.choices = "bond = brittle spring\nload area = disc\nduration_ns = 12";
     double const middle[] = {45, 70, 90, 44};
-    for (auto const zone : {cartilage_zone::surface, cartilage_zone::middle, cartilage_zone::deep, cartilage_zone::whole})
+    for (auto const zone :
+         {cartilage_zone::surface, cartilage_zone::middle, cartilage_zone::deep, cartilage_zone::whole})
         for (int seed = 1; seed <= seeds; ++seed) {
             packing_result packing;
             packing.zone = zone;
