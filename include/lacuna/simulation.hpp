@@ -257,7 +257,8 @@ private:
         for (auto& r : reports_) r = {};
 
         int const chunks = interactions_.chunks();
-        bool const further_forces = filled() || !walls_.empty() || carries_moment<bond_law_type>;
+        bool const further_forces = filled() || !walls_.empty() || carries_moment<bond_law_type> ||
+                                    carries_moment<contact_law_type>;
         bool const on_time = parameters_.velocities_on_time && (step_ == 0 || !kicked_.empty());
         bool at_once = !further_forces && kicked_.empty() && !on_time;
         // Whoever gives velocities again and again does not want the forces laid out anew each time.

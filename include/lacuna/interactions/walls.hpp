@@ -88,8 +88,8 @@ public:
             frame.motion.distance = distance;
             frame.motion.normal_rate = dot(normal, i.velocity);
             frame.motion.slip = slip(i, normal, distance, time_step);
-            auto const& law = parameters_.row[n.plane * materials_ + std::size_t(store.material(n.particle))];
-            auto const answer = ContactLaw::evaluate(law, frame.motion, n.state);
+            auto const& law = row_of(store, n);
+            auto const answer = answer_to(law, frame, n.state, i.spin, time_step);
             Real normal_force = answer.normal_force;
             if constexpr (Damping::acts_on_pairs) {
                 // A wall has no mass of its own to share the motion: the effective mass is the particle's.
@@ -111,6 +111,11 @@ public:
             }
             for (int axis = 0; axis < rotation_dim<Dim>; ++axis)
                 out.at(Dim == 2 ? row : row + 1, Dim == 2 ? 2 : axis) += torque[axis];
+            if constexpr (carries_moment<ContactLaw>) {
+                auto const moment = frame.moment(answer);
+                for (int axis = 0; axis < rotation_dim<Dim>; ++axis)
+                    out.at(Dim == 2 ? row : row + 1, Dim == 2 ? 2 : axis) += moment[axis] / i.radius;
+            }
         }
         return beyond;
     }
@@ -125,10 +130,20 @@ public:
         for (auto const& n : near_) {
             double const r = double(store.radius(n.particle));
             double const distance = double(height(store.position(n.particle), n.plane));
-            auto const k = law_stiffness<ContactLaw, Dim>(
-                parameters_.row[n.plane * materials_ + std::size_t(store.material(n.particle))], distance, r, 0.0, false);
+            auto const k = law_stiffness<ContactLaw, Dim>(row_of(store, n), distance, r, 0.0, false);
             visit(n.particle, walls_[n.plane].normal, k.normal, k.shear, std::max(distance, 0.0));
         }
+    }
+    /// Calls visit(particle, normal, moment_stiffness) for each particle that may touch a wall; laws with moments.
+    template <class Visit>
+    void for_each_moment_stiffness([[maybe_unused]] particle_store<Real, Dim> const& store,
+                                   [[maybe_unused]] Visit const& visit) const {
+        if constexpr (carries_moment<ContactLaw>)
+            for (auto const& n : near_) {
+                double const r = double(store.radius(n.particle));
+                auto const k = ContactLaw::template against_turning<Dim>(row_of(store, n), Real(r), Real(0), Real(r));
+                visit(n.particle, walls_[n.plane].normal, moment_stiffness<double>{double(k.bending), double(k.twisting)});
+            }
     }
     /// Writes or reads what a run changes.
     template <class Archive>
@@ -144,6 +159,17 @@ private:
         history_of<Real> state;
     };
 
+    auto const& row_of(particle_store<Real, Dim> const& store, near_wall const& n) const noexcept {
+        return parameters_.row[n.plane * materials_ + std::size_t(store.material(n.particle))];
+    }
+    template <class Parameters>
+    static auto answer_to(Parameters const& law, pair_frame<Real, Dim> const& frame, history_of<Real> const& state,
+                          [[maybe_unused]] vec<Real, rotation_dim<Dim>> const& spin, [[maybe_unused]] Real time_step) {
+        if constexpr (carries_moment<ContactLaw>)
+            return ContactLaw::evaluate(law, frame.motion, frame.turn(spin, {}, time_step), state);
+        else
+            return ContactLaw::evaluate(law, frame.motion, state);
+    }
     Real height(vec<Real, Dim> const& x, std::size_t w) const noexcept {
         double h = 0;
         for (int axis = 0; axis < Dim; ++axis)
