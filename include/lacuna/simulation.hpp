@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -17,6 +18,7 @@
 #include <lacuna/loads/load_set.hpp>
 #include <lacuna/loads/prescribed_motion.hpp>
 #include <lacuna/loads/rigid_plates.hpp>
+#include <lacuna/loads/wall_drive.hpp>
 #include <lacuna/model.hpp>
 #include <lacuna/observe/observer.hpp>
 #include <lacuna/particles/spatial_order.hpp>
@@ -73,6 +75,7 @@ public:
         interactions_ = interactions_type(store_, packing.bonds, p.materials, p.thickness, p.interactions, p.damping,
                                           p.bonds);
         walls_ = wall_contacts<contact_law_type, damping_type, real, dim>(p.walls, contact_materials, p.thickness);
+        wall_drive_ = wall_drive<dim>(p.walls.size(), p.thickness);
         smallest_radius_ = store_.size() ? *std::min_element(store_.radii().begin(), store_.radii().end()) : real(1);
         update_walls();
         reports_.resize(std::size_t(interactions_.chunks()));
@@ -126,6 +129,17 @@ public:
     {
         apply(id, force, point{});
     }
+    /// \}
+
+    /// \name Acting on walls, by their number in simulation_parameters::walls; see walls() for their places and forces
+    /// \{
+    /// Moves a wall: from the velocity it has to v, linearly within ramp_time from now on; 0: at once. m/s, s. The ledger
+    /// books its work as that of prescribed motion.
+    void move_wall(std::size_t w, point const& v, double ramp_time = 0) {
+        wall_drive_.move(walls_, w, v, ramp_time, now().time);
+    }
+    /// Lets a servo hold the stress on a wall from now on, until move_wall().
+    void hold_wall(std::size_t w, wall_servo<dim> const& servo) { wall_drive_.hold(w, servo); }
     /// \}
 
     /// Fills the pores with fluid (models with flow; before the first step).
@@ -227,6 +241,7 @@ public:
         ar(store_, loads_);
         interactions_archive::apply(ar, interactions_, store_);
         walls_.archive(ar, store_);
+        ar(wall_drive_);
         ar(fluid_, events_, kicked_, motions_, plates_, ledger_, growth_, time_step_, moved_, step_, planned_steps_, planned_end_);
         ar(clock_.time, clock_.step, clock_.last, streams_);
         require_state(motions_.fits(store_.size()), "a motion prescribed to no particle");
@@ -255,7 +270,7 @@ private:
     void take_step() {
         settle_time_step();
         bool const changed = interactions_.update(store_, moved_);
-        if (changed) update_walls();
+        if (changed || walls_.outdated(moved_)) update_walls();
         // Slips are those of the motion that led here, with the step of then.
         auto const before = real(step_ > 0 ? clock_.last : *time_step_);
         if (changed && parameters_.follow_critical_step) follow_critical_step();
@@ -266,7 +281,8 @@ private:
         for (auto& r : reports_) r = {};
 
         int const chunks = interactions_.chunks();
-        bool const further_forces = filled() || !walls_.empty() || !plates_.empty() || carries_moment<bond_law_type>;
+        bool const further_forces = filled() || !walls_.empty() || !plates_.empty() || carries_moment<bond_law_type> ||
+                                    carries_moment<contact_law_type>;
         bool const on_time = parameters_.velocities_on_time && (step_ == 0 || !kicked_.empty());
         bool at_once = !further_forces && kicked_.empty() && !on_time;
         // Whoever gives velocities again and again does not want the forces laid out anew each time.
@@ -293,6 +309,7 @@ private:
             for_each_chunk(chunks, parameters_.threads,
                            [&](int c) { interactions_.template evaluate<WithEnergy>(store_, c, before); });
             if (further_forces) add_further_forces<WithEnergy>(before, changed);
+            drive_walls(double(dt));
             for (auto& k : kicked_) {
                 exchange(k);
                 if constexpr (WithEnergy) ledger_.book_work(work_of_kick(k, before));
@@ -311,7 +328,7 @@ private:
             auto pairs = interactions_.energy();
             pairs += wall_energy_;
             ledger_.template keep<flow_type>(pairs, interactions_.fracture_energy(), reports_, double(before), double(dt),
-                                             fluid_.get());
+                                             fluid_.get(), wall_power_);
         } else {
             ledger_.close();
         }
@@ -407,6 +424,16 @@ private:
                           extra_);
     }
 
+    void drive_walls(double dt) {
+        if (walls_.empty()) return;
+        wall_drive_.advance(walls_, time(), dt);
+        wall_power_ = walls_.advance(dt);
+        if (double const way = walls_.fastest() * dt; way > 0.1 * double(smallest_radius_))
+            throw_unstable(store_, now(), -1,
+                           "a wall moved " + to_text(way / double(smallest_radius_)) + " of the smallest radius in one step (limit 0.1)",
+                           "its velocity is too high");
+    }
+
     /// Throats are left out for the run that was announced; ones that open within it are taken up again here.
     void skip_idle_throats() const {
         if (planned_steps_ > 0 && time_step_)
@@ -472,6 +499,8 @@ private:
     wall_contacts<contact_law_type, damping_type, real, dim> walls_;
     load_set<real, dim> loads_;
     mutable fluid_coupling<Model> fluid_; // mutable: which throats are left out is settled with the time step
+    wall_drive<dim> wall_drive_;
+    std::array<double, 2> wall_power_{};
     pair_energy wall_energy_;
     record_column<real> extra_;
     std::vector<motion_report<real>> reports_;

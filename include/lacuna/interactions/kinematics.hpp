@@ -63,10 +63,10 @@ struct pair_frame {
                            T const& time_step) const {
         auto turned = (spin_j - spin_i) * time_step;
         if constexpr (Dim == 2) {
-            return {turned, T(0)};
+            return {turned, T(0), normal};
         } else {
             T about = dot(normal, turned);
-            return {turned - normal * about, about};
+            return {turned - normal * about, about, normal};
         }
     }
     /// A stored shear force, turned with the pair: by the change of its normal and by the mean spin about it.
