@@ -151,7 +151,7 @@ public:
     void fill_pores(Make const& make)
         requires(has_fluid<Model>)
     {
-        fluid_.fill(store_, interactions_, parameters_.flow, parameters_.remeshing, parameters_.thickness, make);
+        fluid_.fill(store_, interactions_, parameters_.flow, parameters_.remeshing, dim == 2 ? parameters_.thickness : 1.0, make);
         time_step_.reset();
     }
 
@@ -333,7 +333,7 @@ private:
             ledger_.close();
         }
         check_energy(store_, growth_, WithEnergy ? &ledger_.ledger() : nullptr, moved_, smallest_radius_, now());
-        if constexpr (has_fluid<Model> && dim == 2)
+        if constexpr (has_fluid<Model>)
             if (parameters_.remeshing.rule == remesh_rule::never && (changed || step_ % 64 == 63))
                 check_pores(store_, fluid_.get()->network(), now());
         ++step_;

@@ -77,8 +77,9 @@ public:
     /// \throws std::invalid_argument for parameters out of range.
     implicit_flow_solver(parameters const& p, network_type network) : base(p, std::move(network)) { prepare(); }
 
-    /// Pores of a body, at its present geometry and the apertures of pairs at zero force that touch.
-    /// \param thickness of the body, out of the plane, m; > 0
+    /// Pores of a body, at its present geometry and the apertures of pairs at zero force that touch (in space: pairs at
+    /// zero force where they are).
+    /// \param thickness of the body, out of the plane, m; > 0; in space 1
     /// \param points centres, m; \param radii m: of all particles
     /// \throws std::invalid_argument for parameters out of range.
     implicit_flow_solver(parameters const& p, network_type network, Real thickness, points_view<Real, Dim> points,
