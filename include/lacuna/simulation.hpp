@@ -242,7 +242,8 @@ public:
         interactions_archive::apply(ar, interactions_, store_);
         walls_.archive(ar, store_);
         ar(wall_drive_);
-        ar(fluid_, events_, kicked_, motions_, plates_, ledger_, growth_, time_step_, moved_, step_, planned_steps_, planned_end_);
+        fluid_.archive(ar, store_);
+        ar(events_, kicked_, motions_, plates_, ledger_, growth_, time_step_, moved_, step_, planned_steps_, planned_end_);
         ar(clock_.time, clock_.step, clock_.last, streams_);
         require_state(motions_.fits(store_.size()), "a motion prescribed to no particle");
         require_state(plates_.fit(store_.size()), "a rigid plate of no particle");
@@ -284,6 +285,7 @@ private:
         bool const further_forces = filled() || !walls_.empty() || !plates_.empty() || carries_moment<bond_law_type> ||
                                     carries_moment<contact_law_type>;
         bool const on_time = parameters_.velocities_on_time && (step_ == 0 || !kicked_.empty());
+        bool remeshed = false;
         bool at_once = !further_forces && kicked_.empty() && !on_time;
         // Whoever gives velocities again and again does not want the forces laid out anew each time.
         if (!kicked_.empty() && step_ > 0) streams_ = false;
@@ -308,7 +310,7 @@ private:
             std::for_each(kicked_.rbegin(), kicked_.rend(), [&](kick& k) { exchange(k); });
             for_each_chunk(chunks, parameters_.threads,
                            [&](int c) { interactions_.template evaluate<WithEnergy>(store_, c, before); });
-            if (further_forces) add_further_forces<WithEnergy>(before, changed);
+            if (further_forces) remeshed = add_further_forces<WithEnergy>(before, changed);
             drive_walls(double(dt));
             for (auto& k : kicked_) {
                 exchange(k);
@@ -337,6 +339,7 @@ private:
             if (parameters_.remeshing.rule == remesh_rule::never && (changed || step_ % 64 == 63))
                 check_pores(store_, fluid_.get()->network(), now());
         ++step_;
+        if (remeshed || step_ % 64 == 0) mind_flow_limit();
     }
 
     /// What a particle's velocities were before they were given new ones between two steps.
@@ -401,15 +404,18 @@ private:
         });
     }
 
+    /// \return whether the pores were made anew
     template <bool WithEnergy>
-    void add_further_forces(real dt, bool pairs_changed) {
+    bool add_further_forces(real dt, bool pairs_changed) {
+        bool remeshed = false;
         if (pairs_changed) {
             fluid_.map_throats(interactions_);
             skip_idle_throats();
         }
         if (filled()) {
             fluid_.template step<WithEnergy>(store_, interactions_, dt, step_, parameters_.threads, extra_);
-            if (fluid_.remesh(store_, interactions_, step_)) skip_idle_throats();
+            remeshed = fluid_.remesh(store_, interactions_, step_);
+            if (remeshed) skip_idle_throats();
         } else
             std::fill(extra_.data(), extra_.data() + 4 * extra_.size(), real(0));
         interactions_.add_moments(store_, extra_);
@@ -422,6 +428,7 @@ private:
         if (!plates_.empty())
             plates_.share(store_, [&](std::size_t k) { return total_force(store_, interactions_, extra_, k).force; },
                           extra_);
+        return remeshed;
     }
 
     void drive_walls(double dt) {
@@ -450,6 +457,23 @@ private:
         if (!std::isfinite(found) || (found >= *time_step_ && found <= 1.01 * *time_step_)) return;
         clock_ = {time(), step_, clock_.last};
         time_step_ = found;
+    }
+
+    /// Where throats have opened, or pores were made anew, the step may be too long for an explicit flow: one of our
+    /// choice is chosen again, one that was asked for ends the run.
+    void mind_flow_limit() {
+        if constexpr (has_fluid<Model>) {
+            double const limit = flow_limit(*fluid_.get());
+            if (*time_step_ <= limit || parameters_.allow_unstable_step) return;
+            if (parameters_.time_step > 0)
+                throw_unstable(store_, now(), -1,
+                               "the flow between pores allows a time step of at most " + to_text(limit) +
+                                   " s by now, less than " + to_text(*time_step_) + " s",
+                               "throats have opened or pores become small; flow.substeps = 0 takes as many flow steps as "
+                               "are safe, implicit flow has no limit");
+            clock_ = {time(), step_, clock_.last};
+            time_step_ = parameters_.safety * limits().critical();
+        }
     }
 
     void collect_events() {

@@ -162,7 +162,7 @@ protected:
     /// \return whether throats join the same pores as before
     bool restore_state(network_type network, flow_ledger<Real> const& ledger) {
         bool const same = network.corner == network_.corner && network.throat_pore == network_.throat_pore &&
-                          network.pores() == network_.pores() && network.open_throats() == network_.open_throats();
+                          network.size == network_.size && network.pores() == network_.pores() && network.open_throats() == network_.open_throats();
         network_ = std::move(network);
         ledger_ = ledger;
         if (same) {

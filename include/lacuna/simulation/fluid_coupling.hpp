@@ -32,6 +32,8 @@ public:
         if constexpr (has_fluid<Model>) {
             remesher_.start(remeshing, make, real(thickness), *flow_, store.positions(), radii, pairs);
             map_throats(pairs);
+            // So that step limits are those of the gaps that there are.
+            flow_->refresh_apertures(store.place(), pairs.force_column());
         }
     }
 
@@ -80,13 +82,16 @@ public:
                 flow_->skip_idle_throats(real(duration));
             }
     }
+    /// Writes to, or reads from, an archive what a run changes.
     template <class Archive>
-    void serialize(Archive& ar) {
+    void archive(Archive& ar, store_type const& store) {
         bool filled = flow_.has_value();
         ar(filled);
         require_state(filled == flow_.has_value(), "its pores are filled and these are not, or the other way round");
-        require_state(!remesher_.on(), "its pores may be triangulated anew: such a run cannot be resumed");
-        if (filled) ar(*flow_);
+        if constexpr (has_fluid<Model>) {
+            if (remesher_.on()) remesher_.archive(ar, *flow_, store.radii().data());
+            if (filled) ar(*flow_);
+        }
     }
 
 private:

@@ -41,6 +41,12 @@ void add_fluid_stiffness(frequency_bound<Dim>& bound, Store const& store, Flow c
 
 } // namespace detail
 
+/// What a step has to stay below for the fluid, s; see time_step_limits::flow.
+template <class Flow>
+double flow_limit(Flow const& flow) {
+    return double(flow.critical_time_step()) / flow.settings().interval;
+}
+
 /// Limits of the time step of the given parts in their present state (MODEL.md section 6).
 /// \param flow nullptr without fluid
 template <class Model, class Store, class Interactions, class Walls, class Flow>
@@ -85,7 +91,7 @@ time_step_limits find_limits(Store const& store, Interactions const& interaction
         if (flow) {
             detail::add_fluid_stiffness(bound, store, *flow);
             result.equation_19 = double(flow->equation_19_time_step());
-            result.flow = double(flow->critical_time_step()) / flow->settings().interval;
+            result.flow = flow_limit(*flow);
         }
     double const against_motion = 1 + std::fabs(damping_type::particle_force(damping, 1.0, -1.0));
     double drag_rate = 0;
