@@ -21,10 +21,10 @@
 
 namespace lacuna {
 
-/// Records of particles as particle_store has them, as far as pores read them: {x, y, -, radius}, m.
+/// Particles as particle_store has them, as far as pores read them: {x, y, -, radius}, m.
 template <class Real>
-record_column<Real> particle_records(points_view<Real, 2> points, Real const* radii) {
-    record_column<Real> place;
+body_column<Real> particle_records(points_view<Real, 2> points, Real const* radii) {
+    body_column<Real> place;
     place.resize(points.size());
     for (std::size_t k = 0; k < points.size(); ++k) {
         place.at(k, 0) = points(k, 0);
@@ -57,7 +57,7 @@ public:
             for (std::size_t c = 0; c < 3; ++c) {
                 corner_[c].assign(slots, 0);
                 for (std::size_t p = 0; p < slots; ++p)
-                    corner_[c][p] = 4 * std::uint32_t(net.corner[c][std::min(p, count - 1)]);
+                    corner_[c][p] = std::uint32_t(body_column<Real>::stride) * std::uint32_t(net.corner[c][std::min(p, count - 1)]);
             }
             for (std::size_t p = 0; p < count; ++p) floor_[p] = minimum_share * net.size[p];
         }

@@ -43,7 +43,7 @@ public:
         paired_.assign(slots, Real(0));
         for (std::size_t t = 0; t < std::min(slots, net.throats()); ++t) {
             for (std::size_t side = 0; side < 2; ++side)
-                particle_[side][t] = 4 * std::uint32_t(std::max(net.throat_particle[side][t], 0));
+                particle_[side][t] = std::uint32_t(body_column<Real>::stride) * std::uint32_t(std::max(net.throat_particle[side][t], 0));
             pore_[0][t] = net.throat_pore[0][t];
             if (t >= open) continue;
             factor_[t] = conductivity / net.length[t];
