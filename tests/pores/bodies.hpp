@@ -51,8 +51,8 @@ struct assembly {
     }
     /// The records of a particle store: {x, y, arc, radius}, in space {x, y, z, radius}.
     template <class Real = double>
-    lacuna::record_column<Real> place() const {
-        lacuna::record_column<Real> column;
+    lacuna::body_column<Real> place() const {
+        lacuna::body_column<Real> column;
         column.resize(x.size() + 2);
         for (std::size_t i = 0; i < x.size() + 2; ++i) {
             bool const ghost = i >= x.size();

@@ -95,10 +95,12 @@ pair_frame<T, Dim> relative_motion(relative_state<T, Dim> const& state, T const&
     // No local variable of this path is const: g++ 12 keeps const ones in memory once they are packs.
     auto arm = state.arm;
     auto step = state.velocity * time_step;
-    // The slip comes from quotients by the squared distance, which do not wait for the root.
+    // The slip comes from quotients by the squared distance, which do not wait for the root. One division makes both
+    // inverses: it takes a processor as long as ten products.
     T squared = squared_norm(arm);
-    T inverse_squared = T(1) / squared;
-    T inverse_radii = T(1) / state.radii;
+    T inverse = T(1) / (squared * state.radii);
+    T inverse_squared = inverse * state.radii;
+    T inverse_radii = inverse * squared;
     T distance = sqrt(squared);
     T inverse_distance = distance * inverse_squared;
 

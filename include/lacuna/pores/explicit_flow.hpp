@@ -58,7 +58,7 @@ public:
     /// \tparam WithLedger also keeps ledger()
     /// \throws std::runtime_error when `substeps` = 0 and the step takes more than most_substeps
     template <bool WithLedger>
-    void step(record_column<Real> const& place, Real const* pair_forces, Real dt, int threads = 1) {
+    void step(body_column<Real> const& place, Real const* pair_forces, Real dt, int threads = 1) {
         if (this->network_.bare()) return advance<WithLedger>(dt, threads);
         this->template begin_step<WithLedger>();
         bool const flowing = this->flows() && dt > Real(0);

@@ -84,7 +84,7 @@ public:
     /// \param place records of the particles, as particle_store has them; here and below
     /// \param pair_forces records of the pairs' forces, at least one; the fourth number is the normal force, N,
     ///        positive in tension; here and below
-    void refresh_apertures(record_column<Real> const& place, Real const* pair_forces, int threads = 1) noexcept {
+    void refresh_apertures(body_column<Real> const& place, Real const* pair_forces, int threads = 1) noexcept {
         if (network_.bare()) return;
         for_each_chunk(throats_.chunks(true), threads, [&](int c) {
             throats_.template pass<true, false, aperture_type>(c, network_, place.data(), pair_forces,

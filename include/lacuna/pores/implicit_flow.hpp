@@ -101,7 +101,7 @@ public:
     /// step of 0 s pressures follow the volumes, and nothing flows.
     /// \tparam WithLedger also keeps ledger()
     template <bool WithLedger>
-    void step(record_column<Real> const& place, Real const* pair_forces, Real dt, int threads = 1) {
+    void step(body_column<Real> const& place, Real const* pair_forces, Real dt, int threads = 1) {
         if (this->network_.bare()) return advance<WithLedger>(dt, threads);
         this->template begin_step<WithLedger>();
         bool const flowing = this->flows() && dt > Real(0);

@@ -23,11 +23,10 @@
 
 namespace lacuna {
 
-/// Records of particles as particle_store has them, as far as pores read them: {x, y, -, radius}, in space
-/// {x, y, z, radius}, m.
+/// Particles as particle_store has them, as far as pores read them: {x, y, -, radius}, in space {x, y, z, radius}, m.
 template <class Real, int Dim>
-record_column<Real> particle_records(points_view<Real, Dim> points, Real const* radii) {
-    record_column<Real> place;
+body_column<Real> particle_records(points_view<Real, Dim> points, Real const* radii) {
+    body_column<Real> place;
     place.resize(points.size());
     for (std::size_t k = 0; k < points.size(); ++k) {
         for (int axis = 0; axis < Dim; ++axis) place.at(k, axis) = points(k, axis);
@@ -62,7 +61,7 @@ public:
             for (std::size_t c = 0; c < corners; ++c) {
                 corner_[c].assign(slots, 0);
                 for (std::size_t p = 0; p < slots; ++p)
-                    corner_[c][p] = 4 * std::uint32_t(net.corner[c][std::min(p, count - 1)]);
+                    corner_[c][p] = std::uint32_t(body_column<Real>::stride) * std::uint32_t(net.corner[c][std::min(p, count - 1)]);
             }
             for (std::size_t p = 0; p < count; ++p) floor_[p] = minimum_share * net.size[p];
         }

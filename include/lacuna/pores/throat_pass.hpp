@@ -47,7 +47,7 @@ public:
         for (auto& paired : paired_) paired.assign(slots, Real(0));
         for (std::size_t t = 0; t < std::min(slots, net.throats()); ++t) {
             for (std::size_t side = 0; side < particle_.size(); ++side)
-                particle_[side][t] = 4 * std::uint32_t(std::max(net.throat_particle[side][t], 0));
+                particle_[side][t] = std::uint32_t(body_column<Real>::stride) * std::uint32_t(std::max(net.throat_particle[side][t], 0));
             pore_[0][t] = net.throat_pore[0][t];
             if (t >= open) continue;
             factor_[t] = conductivity / net.length[t];
