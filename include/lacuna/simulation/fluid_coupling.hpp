@@ -33,7 +33,7 @@ public:
             remesher_.start(remeshing, make, real(thickness), *flow_, store.positions(), radii, pairs);
             map_throats(pairs);
             // So that step limits are those of the gaps that there are.
-            flow_->refresh_apertures(store.place(), pairs.force_column());
+            flow_->refresh_apertures(store.bodies(), pairs.force_column());
         }
     }
 
