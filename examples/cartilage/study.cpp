@@ -19,6 +19,7 @@
 #include "simulate.hpp"
 #include "snapshots.hpp"
 #include "study_json.hpp"
+#include "study_report.hpp"
 
 namespace cartilage {
 
@@ -140,11 +141,13 @@ void print_study(std::FILE* out, study_result const& study) {
 void write_study(study_options const& o, output_directory& out, study_result const& study, bool whole) {
     out.keep();
     if (!o.quiet) print_study(stdout, study);
-    (void)whole;
+    if (whole) write_report(o.out, study);
     lacuna::whole_file file(out.file(result_name));
     file.write(text_of(study));
     file.commit();
-    if (!o.quiet) std::printf("%s\n", out.file(result_name).c_str());
+    if (o.quiet) return;
+    if (whole) std::printf("%s\n", out.file("report.html").c_str());
+    std::printf("%s\n", out.file(result_name).c_str());
 }
 
 int merge(study_options const& o) {
