@@ -35,6 +35,7 @@ figcaption { font-size: 0.925rem; color: #363d49; max-width: 560px; margin-top: 
 table { border-collapse: collapse; font-size: 0.925rem; font-variant-numeric: tabular-nums; overflow-wrap: normal; }
 caption { text-align: left; color: #4a5260; padding-bottom: 0.4rem; }
 th, td { text-align: left; padding: 0.35rem 0.9rem 0.35rem 0; border-bottom: 1px solid #e3e6ea; white-space: nowrap; }
+.wrapped th, .wrapped td { white-space: normal; padding-right: 0.7rem; }
 thead th { border-bottom: 2px solid #b9c0ca; font-weight: 600; vertical-align: bottom; }
 tbody th { font-weight: 600; }
 pre { overflow-x: auto; background: #f6f7f9; border-radius: 6px; padding: 0.8rem 1rem; font-size: 0.85rem;
@@ -119,7 +120,7 @@ std::string what_was_run(study_result const& study) {
                           " do not count and enter no number of this page:");
         rows.clear();
         for (auto const& [why, number] : reasons) rows.push_back({why, std::to_string(number)});
-        text += html_table("Invalid runs", {"why", "runs"}, rows);
+        text += html_table("Invalid runs", {"why", "runs"}, rows, table_cells::wrapped);
     }
     text += paragraph("Code: " + (study.code.empty() ? "not recorded" : study.code) +
                       ". The choices that the paper leaves open:");
@@ -137,8 +138,7 @@ std::string tables(study_result const& study, std::vector<table3_cell> const& ce
         std::string const paper = cell.paper ? lacuna::to_text(*cell.paper) : "-";
         bool const known = !cell.loads.empty();
         if (cell.what == threshold::first_crack) side_by_side.push_back({zone});
-        side_by_side.back().push_back(paper);
-        side_by_side.back().push_back(known ? load_text(cell.median, study) : "-");
+        side_by_side.back().push_back((known ? load_text(cell.median, study) : "-") + " (paper " + paper + ")");
         full.push_back({zone + ", " + name_of(cell.what), std::to_string(cell.count()), std::to_string(cell.invalid),
                         std::to_string(cell.none), known ? load_text(cell.median, study) : "-",
                         known ? interval_text(cell.first_quartile, cell.third_quartile, study) : "-",
@@ -149,9 +149,8 @@ std::string tables(study_result const& study, std::vector<table3_cell> const& ce
     text += paragraph("First crack: the lowest load with a broken bond. Capacity: the lowest load at which the first "
                       "layer has half of its bonds broken. Complete: the lowest load at which 90 % of the fibres are "
                       "cut. All in MPa.");
-    text += html_table("The paper's loads beside the medians of this study (MPa)",
-                       {"zone", "first crack, paper", "here", "capacity, paper", "here", "complete, paper", "here"},
-                       side_by_side);
+    text += html_table("Medians of this study and the paper's loads (MPa)",
+                       {"zone", "first crack", "capacity", "complete"}, side_by_side, table_cells::wrapped);
     text += html_table("The same with its scatter (MPa)",
                        {"load", "packings", "invalid", "none", "median", "quartiles", "95 % of the median", "paper",
                         "paper's percentile"},
