@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -84,6 +85,7 @@ struct choice_field {
     std::string_view rule;               ///< range in words
     scale steps = scale::linear;         ///< how it is varied
     std::vector<std::string_view> words; ///< of a word: what it can be
+    std::array<double, 2> fit{};         ///< of a number: between which values a calibration looks
     std::vector<double> trials;          ///< what a sensitivity study tries instead of the default; words by place
     bool stated = false;                 ///< the paper gives a value after all: never fitted
     bool fluid = false;                  ///< without effect in a dry run
@@ -105,6 +107,9 @@ choice_field const& find_choice(std::string_view name);
 
 /// \throws std::invalid_argument naming the field, the value and the rule
 void validate(choices const& c);
+
+/// Whether the fluid may flow too fast for the explicit scheme's steps: it is solved implicitly then.
+inline bool flows_fast(choices const& c) { return c.conductivity > 1e-6; }
 
 /// Lines "name = value\n" in the order of the table; without `all` only those that differ from the defaults.
 std::string text_of(choices const& c, bool all = false);

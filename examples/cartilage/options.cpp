@@ -76,6 +76,9 @@ lacuna::cartilage_specimen_parameters options::specimen() const {
     p.seed = seed;
     if (open.radii == radius_rule::equal) p.r_min = p.r_max = p.diameter() / 2;
     p.fibre_spacing = open.fibre_spacing;
+    p.fibre_layers = open.fibre_layers;
+    p.link_fibres = open.fibre_links > 0;
+    p.link_matrix = open.matrix_links > 0;
     p.middle_fibre_length = open.middle_fibre_length * 1e-6;
     p.deep_fraction = open.deep_fraction;
     p.surface_fraction = open.surface_fraction;

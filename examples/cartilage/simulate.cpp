@@ -84,10 +84,8 @@ private:
 template <class Model>
 run_result follow(specimen const& s, options const& o, output_directory& out, std::FILE* progress,
                   lacuna::scene& damage) {
-    auto parameters = model_parameters<Model>(s, o.open);
-    parameters.threads = o.threads;
-    lacuna::simulation<Model> sim(s.discs, parameters);
-    set_up(sim, s, o.load_MPa * 1e6, o.open);
+    auto const loaded = load_specimen<Model>(s, o);
+    lacuna::simulation<Model>& sim = *loaded;
 
     run_result result;
     result.specimen = report_of(s);
@@ -134,7 +132,9 @@ bool stop_is_requested() noexcept { return stop_requested != 0; }
 
 run_result simulate(specimen const& s, options const& o, output_directory& out, std::FILE* progress,
                     lacuna::scene& damage) {
-    return o.dry ? follow<dry_model>(s, o, out, progress, damage) : follow<wet_model>(s, o, out, progress, damage);
+    return visit_model(o.open, o.dry, [&]<class Model>(std::type_identity<Model>) {
+        return follow<Model>(s, o, out, progress, damage);
+    });
 }
 
 } // namespace cartilage

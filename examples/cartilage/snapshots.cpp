@@ -118,8 +118,8 @@ private:
 
 template <class Model>
 void follow(specimen const& s, options const& o, snapshot& shot) {
-    lacuna::simulation<Model> sim(s.discs, model_parameters<Model>(s, o.open));
-    set_up(sim, s, o.load_MPa * 1e6, o.open);
+    auto const loaded = load_specimen<Model>(s, o);
+    lacuna::simulation<Model>& sim = *loaded;
     probe_watch watch(s, o);
     front_watch fronts(s, shot.fronts);
     shot.run = watch.follow(question::end, sim, watch.rule().steps(sim.time_step()), fronts);
@@ -145,10 +145,7 @@ snapshot take_snapshot(paper_picture const& picture, options o) {
     shot.zone = o.zone;
     shot.seed = o.seed;
     shot.figure = picture.figure;
-    if (o.dry)
-        follow<dry_model>(s, o, shot);
-    else
-        follow<wet_model>(s, o, shot);
+    visit_model(o.open, o.dry, [&]<class Model>(std::type_identity<Model>) { follow<Model>(s, o, shot); });
     return shot;
 }
 

@@ -16,6 +16,7 @@
 #include <lacuna/interactions/walls.hpp>
 #include <lacuna/loads/load_set.hpp>
 #include <lacuna/loads/prescribed_motion.hpp>
+#include <lacuna/loads/rigid_plates.hpp>
 #include <lacuna/model.hpp>
 #include <lacuna/observe/observer.hpp>
 #include <lacuna/particles/spatial_order.hpp>
@@ -103,6 +104,13 @@ public:
     }
     /// Prescribes the motion along the given axes: there the particle keeps the velocity it has or is given.
     void fix(std::size_t id, fixed_axes const& axes = fixed_axes::all()) { store_.fix(internal(id), axes); }
+    /// Joins particles to a rigid, smooth plate, see rigid_plates: from now on they move as one along the axis. Not to
+    /// be given velocities of their own afterwards.
+    void join(std::span<std::size_t const> ids, int axis) {
+        std::vector<std::size_t> particles;
+        for (std::size_t const id : ids) particles.push_back(internal(id));
+        plates_.add(store_, std::move(particles), axis);
+    }
     /// Applies a force and a torque on top of gravity; replaces the ones applied before. N, N m.
     /// \param ramp_time within which it rises linearly from zero, from now on, s; 0: at once
     void apply(std::size_t id, point const& force, vec<double, rotation_dim<dim>> const& torque, double ramp_time = 0) {
@@ -190,8 +198,8 @@ public:
         return force;
     }
 
-    /// Total force on a particle, and torque, at the last evaluation, N, N m: of pairs, fluid, walls, loads and gravity;
-    /// not of damping policies that act on particles.
+    /// Total force on a particle, and torque, at the last evaluation, N, N m: of pairs, fluid, walls, loads, gravity and
+    /// the plate that it is joined to; not of damping policies that act on particles.
     /// \throws std::logic_error when forces are not kept: see simulation_parameters::keep_pair_forces
     point force(std::size_t id) const { return convert<double>(kept_force(id).force); }
     vec<double, rotation_dim<dim>> torque(std::size_t id) const { return convert<double>(kept_force(id).turning) * this->radius(id); }
@@ -219,9 +227,10 @@ public:
         ar(store_, loads_);
         interactions_archive::apply(ar, interactions_, store_);
         walls_.archive(ar, store_);
-        ar(fluid_, events_, kicked_, motions_, ledger_, growth_, time_step_, moved_, step_, planned_steps_, planned_end_);
+        ar(fluid_, events_, kicked_, motions_, plates_, ledger_, growth_, time_step_, moved_, step_, planned_steps_, planned_end_);
         ar(clock_.time, clock_.step, clock_.last, streams_);
         require_state(motions_.fits(store_.size()), "a motion prescribed to no particle");
+        require_state(plates_.fit(store_.size()), "a rigid plate of no particle");
         for (auto const& k : kicked_) require_state(k.particle < store_.size(), "a velocity given to no particle");
         require_state(!time_step_ || (*time_step_ > 0 && std::isfinite(*time_step_)), "its time step");
         for (auto const number : {step_, planned_steps_, planned_end_})
@@ -257,7 +266,7 @@ private:
         for (auto& r : reports_) r = {};
 
         int const chunks = interactions_.chunks();
-        bool const further_forces = filled() || !walls_.empty() || carries_moment<bond_law_type>;
+        bool const further_forces = filled() || !walls_.empty() || !plates_.empty() || carries_moment<bond_law_type>;
         bool const on_time = parameters_.velocities_on_time && (step_ == 0 || !kicked_.empty());
         bool at_once = !further_forces && kicked_.empty() && !on_time;
         // Whoever gives velocities again and again does not want the forces laid out anew each time.
@@ -393,6 +402,9 @@ private:
                 throw_unstable(store_, now(), beyond, "its centre is beyond a wall",
                                "the load or speed is too high for the stiffness of the wall");
         }
+        if (!plates_.empty())
+            plates_.share(store_, [&](std::size_t k) { return total_force(store_, interactions_, extra_, k).force; },
+                          extra_);
     }
 
     /// Throats are left out for the run that was announced; ones that open within it are taken up again here.
@@ -468,6 +480,7 @@ private:
     ledger_keeper<real> ledger_;
     growth_watch<real> growth_;
     prescribed_motion<dim> motions_;
+    rigid_plates<real, dim> plates_;
     mutable std::optional<double> time_step_;
     /// When the present time step began to apply, and how long the last step was.
     struct step_clock {

@@ -6,6 +6,7 @@
 #include "reference.hpp"
 #include "simulation/setups.hpp"
 
+#include <lacuna/laws/brittle_beam_bond.hpp>
 #include <lacuna/laws/parallel_bond.hpp>
 
 using namespace setups;
@@ -180,4 +181,78 @@ TEST_CASE("single bonds have values of their own", "[bond values]") {
     p.bonds[1] = {};
     p.bonds[1].tensile_force = -1;
     REQUIRE_THROWS_WITH(lacuna::simulation<plane>(chain<2>(3), p), contains_text("bonds[1].tensile_force = -1"));
+}
+
+TEST_CASE("the paper's bond with a moment", "[moment]") {
+    using law = lacuna::brittle_beam_bond;
+    double const strength = 3, radius = 0.5, thickness = 2, share = 0.25;
+    law::material const m{1e3, 800, strength, 2 * strength, share};
+    auto const p = law::combine(m, {1e3, 800, strength, 2 * strength, 2 * share}, thickness);
+    lacuna::pair_motion<double, 2> still{1, radius, radius, {}, 0};
+    double const area = 2 * radius * thickness;
+    // k_n R^2 / 3, a quarter of it
+    double const k = law::against_turning<2>(p, radius, radius).bending;
+    REQUIRE_THAT(k, WithinRel(share * 1e3 * 0.25 / 3, 1e-12));
+    auto const q = law::against_turning<3>(p, radius, 0.7);
+    REQUIRE_THAT(q.bending, WithinRel(share * 1e3 * 0.25 / 4, 1e-12));
+    REQUIRE_THAT(q.twisting, WithinRel(share * 800 * 0.25 / 2, 1e-12));
+    for (double const axial : {-4.0, 0.0, 2.0}) {
+        double const moment = (strength * area - axial) * radius / 3; // F_n + 3 |M| / R = sigma A
+        for (double const over : {0.999, 1.001}) {
+            auto const h = law::initial<double, 2>(1 - axial / 1e3, 1);
+            auto const r = law::evaluate(p, still, {{-over * moment / k}, 0}, h);
+            REQUIRE_THAT(r.bending_moment[0], WithinRel(-over * moment, 1e-12));
+            REQUIRE_THAT(r.stored_energy,
+                         WithinRel(0.5 * (axial * axial / 1e3 + over * over * moment * moment / k), 1e-12));
+            REQUIRE(r.broken == (over > 1));
+            REQUIRE((!r.broken || r.broken_in_tension));
+        }
+    }
+    // Crushed at -sigma A, 6 N, where a parallel bond would go on: of 10 N the rest becomes a shorter bond.
+    auto const crushed = law::evaluate(p, still, law::initial<double, 2>(1 + 10 / 1e3, 1));
+    REQUIRE_THAT(crushed.normal_force, WithinRel(-6.0, 1e-12));
+    REQUIRE_THAT(crushed.history.rest_distance, WithinRel(1 + 6 / 1e3, 1e-12));
+    REQUIRE_FALSE(crushed.broken);
+    // In shear at twice the strength: slips of 12 N / 800 N/m.
+    for (double const over : {0.999, 1.001}) {
+        still.slip[0] = over * 12 / 800;
+        auto const r = law::evaluate(p, still, law::initial<double, 2>(1, 1));
+        REQUIRE(r.broken == (over > 1));
+        REQUIRE_FALSE(r.broken_in_tension);
+    }
+    // A stiffness and a strength of its own.
+    auto const own = law::with_values<2>(p, {.normal_stiffness = 500, .bending_stiffness = 7, .tensile_force = 1}, 0.5, 0.7);
+    REQUIRE_THAT(law::against_turning<2>(own, 0.5, 0.7).bending, WithinRel(7.0, 1e-12));
+    REQUIRE(own.spring.normal_stiffness == 500);
+    REQUIRE_THAT(own.spring.tensile_strength * area, WithinRel(1.0, 1e-12));
+    REQUIRE_THROWS_WITH((law::material{1, 1, 1, 1, -1}.validate("m")), "m.bending_ratio = -1: must be >= 0 and finite");
+}
+
+TEST_CASE("without a moment it is the paper's bond, run by run", "[moment]") {
+    struct beam_model : lacuna::default_model<2> {
+        using bond_law = lacuna::brittle_beam_bond;
+    };
+    auto discs = chain<2>(5);
+    discs.position[2][1] += 0.2;
+    auto const run = [&](auto sim) {
+        sim.fix(0);
+        sim.apply(4, {-3, 20});
+        sim.run(600);
+        REQUIRE(std::any_of(sim.pairs().bond_records().begin(), sim.pairs().bond_records().end(),
+                            [](auto const& b) { return b.state != lacuna::bond_state::intact; }));
+        std::vector<double> found;
+        for (std::size_t id = 0; id < 5; ++id) {
+            found.push_back(sim.position(id)[0]);
+            found.push_back(sim.position(id)[1]);
+            found.push_back(sim.orientation(id)[1]);
+        }
+        return found;
+    };
+    auto plain = springs<plane>(1e4, 4e3, 0.1, unit_density(2), 12, 12);
+    lacuna::simulation_parameters<beam_model> beam;
+    beam.materials = {{unit_density(2), {1e4, 4e3, 0.1}, {1e4, 4e3, 12, 12, 0}}};
+    plain.time_step = beam.time_step = 2e-3;
+    auto const expected = run(lacuna::simulation<plane>(discs, plain));
+    auto const found = run(lacuna::simulation<beam_model>(discs, beam));
+    for (std::size_t k = 0; k < found.size(); ++k) REQUIRE_THAT(found[k], WithinAbs(expected[k], 1e-9));
 }
