@@ -12,7 +12,7 @@ demo)
     ;;
 check)
     wanted="g++ make cmake libeigen3-dev libnanoflann-dev libqhull-dev libcairo2-dev libspectra-dev libcli11-dev
-        libtomlplusplus-dev nlohmann-json3-dev libcereal-dev catch2 libbenchmark-dev"
+        libtomlplusplus-dev nlohmann-json3-dev libcereal-dev libnlopt-dev catch2 libbenchmark-dev"
     ;;
 *)
     echo "usage: sh cmake/dependencies.sh demo|check [more Debian packages]" >&2
