@@ -26,6 +26,7 @@ figcaption { font-size: 0.925rem; color: #363d49; max-width: 560px; margin-top: 
 table { border-collapse: collapse; font-size: 0.925rem; font-variant-numeric: tabular-nums; overflow-wrap: normal; }
 caption { text-align: left; color: #4a5260; padding-bottom: 0.4rem; }
 th, td { text-align: left; padding: 0.35rem 0.9rem 0.35rem 0; border-bottom: 1px solid #e3e6ea; white-space: nowrap; }
+.wrapped th, .wrapped td { white-space: normal; padding-right: 0.7rem; }
 thead th { border-bottom: 2px solid #b9c0ca; font-weight: 600; vertical-align: bottom; }
 tbody th { font-weight: 600; }
 pre { overflow-x: auto; background: #f6f7f9; border-radius: 6px; padding: 0.8rem 1rem; font-size: 0.85rem;

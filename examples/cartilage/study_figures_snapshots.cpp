@@ -20,8 +20,8 @@ using lacuna::plot;
 using lacuna::plot_mark;
 using lacuna::rectangle;
 
-constexpr double width = 560, height = 722;
-constexpr rectangle upper{68, 62, 540, 330}, lower{68, 418, 540, 668};
+constexpr double width = 560, height = 728;
+constexpr rectangle upper{76, 64, 540, 330}, lower{76, 424, 540, 668};
 constexpr lacuna::color stress_ink{0.13, 0.13, 0.15}, pressure_ink{0.10, 0.35, 0.75};
 
 std::string title_of(snapshot const& s) {

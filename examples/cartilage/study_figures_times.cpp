@@ -16,8 +16,8 @@ using lacuna::legend_mark;
 using lacuna::plot;
 using lacuna::plot_mark;
 
-constexpr double width = 560, height = 722;
-constexpr lacuna::rectangle upper{68, 62, 540, 330}, lower{68, 418, 540, 668};
+constexpr double width = 560, height = 728;
+constexpr lacuna::rectangle upper{76, 64, 540, 330}, lower{76, 424, 540, 668};
 constexpr lacuna::color elastic_ink{0.10, 0.35, 0.75}, slow_ink{0.80, 0.30, 0.10};
 constexpr double elastic_ns = 1e9 * first_crack_times::elastic_until;
 

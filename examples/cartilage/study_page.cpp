@@ -92,7 +92,7 @@ std::string what_was_run(study_result const& study) {
                           " do not count and enter no number of this page:");
         rows.clear();
         for (auto const& [why, number] : reasons) rows.push_back({why, std::to_string(number)});
-        text += html_table("Invalid runs", {"why", "runs"}, rows);
+        text += html_table("Invalid runs", {"why", "runs"}, rows, table_cells::wrapped);
     }
     text += paragraph("Code: " + (study.code.empty() ? "not recorded" : study.code) +
                       ". The choices that the paper leaves open:");
@@ -110,8 +110,7 @@ std::string tables(study_result const& study, std::vector<table3_cell> const& ce
         std::string const paper = cell.paper ? lacuna::to_text(*cell.paper) : "-";
         bool const known = !cell.loads.empty();
         if (cell.what == threshold::first_crack) side_by_side.push_back({zone});
-        side_by_side.back().push_back(paper);
-        side_by_side.back().push_back(known ? load_text(cell.median, study) : "-");
+        side_by_side.back().push_back((known ? load_text(cell.median, study) : "-") + " (paper " + paper + ")");
         full.push_back({zone + ", " + name_of(cell.what), std::to_string(cell.count()), std::to_string(cell.invalid),
                         std::to_string(cell.none), known ? load_text(cell.median, study) : "-",
                         known ? interval_text(cell.first_quartile, cell.third_quartile, study) : "-",
@@ -122,9 +121,8 @@ std::string tables(study_result const& study, std::vector<table3_cell> const& ce
     text += paragraph("First crack: the lowest load with a broken bond. Capacity: the lowest load at which the first "
                       "layer has half of its bonds broken. Complete: the lowest load at which 90 % of the fibres are "
                       "cut. All in MPa.");
-    text += html_table("The paper's loads beside the medians of this study (MPa)",
-                       {"zone", "first crack, paper", "here", "capacity, paper", "here", "complete, paper", "here"},
-                       side_by_side);
+    text += html_table("Medians of this study and the paper's loads (MPa)",
+                       {"zone", "first crack", "capacity", "complete"}, side_by_side, table_cells::wrapped);
     text += html_table("The same with its scatter (MPa)",
                        {"load", "packings", "invalid", "none", "median", "quartiles", "95 % of the median", "paper",
                         "paper's percentile"},
