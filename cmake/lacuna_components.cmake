@@ -6,7 +6,7 @@ set(LACUNA_CORE_TARGETS Eigen3::Eigen nanoflann::nanoflann)
 
 # Each optional component: what it is, the package to find, the target to link, and the third-party headers
 # by which a header or a source is known to need it (none: never needed, only used when there).
-set(LACUNA_COMPONENTS pores pictures spectra checkpoints openmp)
+set(LACUNA_COMPONENTS pores pictures spectra checkpoints compression openmp)
 
 set(LACUNA_pores_WHAT "triangulations, Qhull's reentrant library")
 set(LACUNA_pores_PACKAGE LacunaQhull)
@@ -27,6 +27,11 @@ set(LACUNA_checkpoints_WHAT "checkpoints, cereal")
 set(LACUNA_checkpoints_PACKAGE cereal CONFIG)
 set(LACUNA_checkpoints_TARGET cereal::cereal)
 set(LACUNA_checkpoints_HEADERS "^cereal/")
+
+set(LACUNA_compression_WHAT "compressed VTK files, zlib")
+set(LACUNA_compression_PACKAGE ZLIB)
+set(LACUNA_compression_TARGET ZLIB::ZLIB)
+set(LACUNA_compression_HEADERS "^zlib\\.h$")
 
 set(LACUNA_openmp_WHAT "loops over several threads, OpenMP")
 set(LACUNA_openmp_PACKAGE OpenMP COMPONENTS CXX)
