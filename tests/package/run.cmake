@@ -40,12 +40,13 @@ set(prefix "${SCRATCH}/prefix")
 set(clone "")
 set(commit "")
 
+# cpack and install want all programs of a build first: this one has none.
+if(WAY STREQUAL "debian" OR (WAY STREQUAL "find_package" AND EXTENT STREQUAL "core"))
+  run("${CMAKE_COMMAND}" ${tools} -S "${SOURCE}" -B "${SCRATCH}/lacuna" ${choices} -D LACUNA_BUILD_TESTS=OFF
+    -D LACUNA_BUILD_EXAMPLES=OFF -D LACUNA_BUILD_BENCH=OFF)
+  set(BUILT "${SCRATCH}/lacuna")
+endif()
 if(WAY STREQUAL "find_package")
-  if(EXTENT STREQUAL "core")
-    run("${CMAKE_COMMAND}" ${tools} -S "${SOURCE}" -B "${SCRATCH}/lacuna" ${choices} -D LACUNA_BUILD_TESTS=OFF
-      -D LACUNA_BUILD_EXAMPLES=OFF -D LACUNA_BUILD_BENCH=OFF)
-    set(BUILT "${SCRATCH}/lacuna")
-  endif()
   run("${CMAKE_COMMAND}" --install "${BUILT}" --prefix "${prefix}")
 elseif(WAY STREQUAL "fetch_content")
   set(clone "${SCRATCH}/clone")
