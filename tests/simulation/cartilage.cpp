@@ -37,9 +37,8 @@ struct energy_kept {
     void on_end(Simulation const&) {}
 };
 
-/// The paper's model on a small surface zone, with water in the pores.
-outcome coupled_run(double load_MPa, long long steps) {
-    auto const s = small_specimen(specimen_preset::literal);
+/// The paper's model with water in the pores.
+outcome coupled_run(cartilage_specimen<double> const& s, double load_MPa, long long steps) {
     simulation<cartilage::wet_model> sim(s.discs, cartilage::model_parameters<cartilage::wet_model>(s, 0.01));
     cartilage::set_up(sim, s, load_MPa * 1e6);
     crack_record<break_event<2>> cracks;
@@ -48,6 +47,9 @@ outcome coupled_run(double load_MPa, long long steps) {
     for (std::size_t p = 0; p < sim.flow().network().pores(); ++p)
         highest = std::max(highest, std::fabs(sim.flow().network().pressure[p]));
     return {cracks.events().size(), sim.energy(), highest};
+}
+outcome coupled_run(double load_MPa, long long steps) {
+    return coupled_run(small_specimen(specimen_preset::literal), load_MPa, steps);
 }
 
 } // namespace
@@ -65,6 +67,16 @@ TEST_CASE("cartilage cracks far above its capacity and not far below") {
 
 TEST_CASE("the energy of a coupled run with cracks, friction and fluid adds up") {
     auto const run = coupled_run(60, 3000);
+    REQUIRE(run.broken > 0);
+    REQUIRE(run.energy.friction > 0);
+    REQUIRE(run.energy.fluid_storage > 0.01 * run.energy.largest());
+    REQUIRE_THAT(run.energy.residual(), WithinAbs(0, 1e-3 * run.energy.largest()));
+}
+
+TEST_CASE("the same of the paper's specimen, 120 by 300 um") {
+    auto const s = make_cartilage_specimen<double>({});
+    REQUIRE(s.discs.size() > 3000);
+    auto const run = coupled_run(s, 60, 1000);
     REQUIRE(run.broken > 0);
     REQUIRE(run.energy.friction > 0);
     REQUIRE(run.energy.fluid_storage > 0.01 * run.energy.largest());
