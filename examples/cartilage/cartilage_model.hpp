@@ -1,79 +1,64 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cstddef>
+#include <memory>
+#include <type_traits>
 
-#include <lacuna/loads/surface_traction.hpp>
-#include <lacuna/particles/cartilage_specimen_types.hpp>
+#include <lacuna/laws/brittle_beam_bond.hpp>
 #include <lacuna/pores/explicit_flow.hpp>
-#include <lacuna/pores/triangulation.hpp>
+#include <lacuna/pores/implicit_flow.hpp>
 #include <lacuna/simulation.hpp>
 
+#include "options.hpp"
+#include "specimen.hpp"
+
 /// \file
-/// The model of the paper, put together from the library's parts, and its numbers (Tables 1 and 2).
+/// The models of the paper, put together from the library's parts.
 
 namespace cartilage {
 
-/// Bonded and frictional springs without damping; no fluid.
-struct dry_model : lacuna::default_model<2> {};
-
-/// The same with water in the pores.
-struct wet_model : lacuna::default_model<2> {
+/// Bonded and frictional springs, damped where that is asked for; no fluid.
+struct dry_model : lacuna::default_model<2> {
+    using damping = lacuna::local_damping;
+};
+/// The same with water in the pores, by the paper's explicit scheme.
+struct wet_model : dry_model {
     using flow = lacuna::explicit_flow;
 };
-
-template <class Parameters>
-typename Parameters::material material(double density, double stiffness, double friction, double strength) {
-    typename Parameters::material m;
-    m.density = density;
-    m.contact.normal_stiffness = m.contact.shear_stiffness = stiffness;
-    m.contact.friction = friction;
-    m.bond.normal_stiffness = m.bond.shear_stiffness = stiffness;
-    m.bond.tensile_strength = m.bond.shear_strength = strength;
-    return m;
-}
-
-/// Parameters of the model for a specimen: materials of Table 1 in the order of lacuna::cartilage_material, rigid
-/// walls beside the specimen, a time step of 0.4 of the rigorous bound.
-template <class Model>
-lacuna::simulation_parameters<Model> model_parameters(lacuna::cartilage_specimen<double> const& s,
-                                                      double contact_tolerance) {
-    using parameters = lacuna::simulation_parameters<Model>;
-    parameters p;
-    p.materials = {material<parameters>(1000, 2.0e8, 0.1, 2e8), material<parameters>(2000, 2.0e8, 0.1, 2e8),
-                   material<parameters>(2500, 2.1e8, 0.1, 9e8), material<parameters>(3000, 2.2e8, 0.1, 1e9)};
-    p.thickness = s.thickness;
-    p.safety = 0.4;
-    // The generator lets neighbours overlap by its tolerance, or leave gaps up to twice that: both are contacts.
-    p.interactions.initial_contact_tolerance = 2 * contact_tolerance;
-    auto const rigid = p.materials.front().contact;
-    p.walls = {{{s.wall_left, 0}, {1, 0}, rigid}, {{s.wall_right, 0}, {-1, 0}, rigid}};
-    return p;
-}
-
-/// Where the fluid can leave: at the free sides and under the loaded surface, not through the support.
-struct free_sides_drained {
-    lacuna::throat_boundary<double> operator()(lacuna::boundary_throat<double, 2> const& throat) const {
-        bool const support = throat.side == lacuna::body_side::bottom;
-        return {support ? lacuna::boundary_kind::sealed : lacuna::boundary_kind::drained, 0.0};
-    }
+/// Bonds with a moment.
+struct dry_beam_model : dry_model {
+    using bond_law = lacuna::brittle_beam_bond;
+};
+/// Bonds that may have a moment, and a fluid that may flow fast: solved implicitly.
+struct wet_beam_model : dry_beam_model {
+    using flow = lacuna::implicit_flow;
 };
 
-/// Holds the bottom row, loads the top row at once, and fills the pores where the model has a fluid.
-/// \param pressure of the load, Pa
-template <class Model>
-void set_up(lacuna::simulation<Model>& sim, lacuna::cartilage_specimen<double> const& s, double pressure) {
-    for (auto id : s.fixed) sim.fix(std::size_t(id));
-    for (auto id : s.loaded) {
-        double const radius = s.discs.radius[std::size_t(id)];
-        double const force = lacuna::traction_force(pressure, radius, s.thickness, lacuna::traction_area::disc);
-        sim.apply(std::size_t(id), {0, -force});
-    }
-    if constexpr (lacuna::has_fluid<Model>)
-        sim.fill_pores([](lacuna::points_view<double, 2> points, double const* radii) {
-            return lacuna::make_pore_network(lacuna::triangulate_body(points, radii), points, radii,
-                                             free_sides_drained{});
-        });
+/// Calls visit(std::type_identity<Model>) with the model that the choices ask for.
+template <class Visit>
+decltype(auto) visit_model(choices const& open, bool dry, Visit const& visit) {
+    if (dry)
+        return open.bond_moment > 0 ? visit(std::type_identity<dry_beam_model>{})
+                                    : visit(std::type_identity<dry_model>{});
+    return open.bond_moment > 0 || flows_fast(open) ? visit(std::type_identity<wet_beam_model>{})
+                                                    : visit(std::type_identity<wet_model>{});
 }
 
+/// A specimen of the model with its load on it, and water in its pores where the model has a fluid; at rest.
+/// \param o load, choices and threads \throws std::invalid_argument when the model cannot be built
+template <class Model>
+std::unique_ptr<lacuna::simulation<Model>> load_specimen(specimen const& s, options const& o);
+
 } // namespace cartilage
+
+// The larger part of each model is compiled once, in models.cpp and models_beam.cpp.
+#define CARTILAGE_INSTANTIATE(Model, as)                                                                                \
+    as template std::unique_ptr<lacuna::simulation<cartilage::Model>> cartilage::load_specimen(                         \
+        cartilage::specimen const&, cartilage::options const&);                                                        \
+    as template void lacuna::simulation<cartilage::Model>::take_step<true>();                                           \
+    as template void lacuna::simulation<cartilage::Model>::settle_time_step() const;                                    \
+    as template lacuna::time_step_limits lacuna::simulation<cartilage::Model>::limits() const;
+CARTILAGE_INSTANTIATE(dry_model, extern)
+CARTILAGE_INSTANTIATE(wet_model, extern)
+CARTILAGE_INSTANTIATE(dry_beam_model, extern)
+CARTILAGE_INSTANTIATE(wet_beam_model, extern)

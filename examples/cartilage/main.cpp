@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <exception>
 #include <stdexcept>
+#include <string_view>
 
 #include <lacuna/core/error.hpp>
 #include <lacuna/observe/picture.hpp>
@@ -11,6 +12,7 @@
 #include "output.hpp"
 #include "simulate.hpp"
 #include "specimen.hpp"
+#include "study.hpp"
 
 namespace {
 
@@ -61,10 +63,18 @@ int run(cartilage::options const& o) {
     return result.interrupted ? interrupted : done;
 }
 
+int study(int argc, char** argv) {
+    auto const o = cartilage::parse_study_command_line(argc, argv);
+    if (!o) return done;
+    catch_signals();
+    return cartilage::study(*o);
+}
+
 } // namespace
 
 int main(int argc, char** argv) {
     try {
+        if (argc > 1 && std::string_view(argv[1]) == "study") return study(argc - 1, argv + 1);
         auto const options = cartilage::parse_command_line(argc, argv);
         if (!options) return done;
         return options->what == cartilage::command::run ? run(*options) : pack(*options);
@@ -74,6 +84,9 @@ int main(int argc, char** argv) {
     } catch (std::invalid_argument const& bad) {
         std::fprintf(stderr, "cartilage: %s\n", bad.what());
         return bad_request;
+    } catch (cartilage::interruption const&) {
+        std::fprintf(stderr, "cartilage: interrupted; the same command goes on from here\n");
+        return interrupted;
     } catch (lacuna::unstable_run const& bad) {
         std::fprintf(stderr, "cartilage: %s\n", bad.what());
         return unstable;

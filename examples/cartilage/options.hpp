@@ -8,6 +8,8 @@
 
 #include <lacuna/particles/cartilage_specimen_types.hpp>
 
+#include "choices.hpp"
+
 /// \file
 /// What a person asks of the program on its command line.
 
@@ -25,12 +27,13 @@ enum class command { run, pack };
 struct options {
     command what = command::run;
     lacuna::cartilage_zone zone = lacuna::cartilage_zone::surface;
-    lacuna::specimen_preset preset = lacuna::specimen_preset::literal;
+    std::string preset = "literal";
+    choices open; ///< what the paper leaves open: preset, file and single settings together
     double load_MPa = 0;
     std::uint64_t seed = 1;
     double length_um = 120;
     double height_um = 300;
-    std::optional<double> duration_ns; ///< none: until quiet, 40 ns at most
+    std::optional<double> duration_ns; ///< that of `open`; none: until quiet
     int threads = 1;
     bool dry = false;
     std::string out;

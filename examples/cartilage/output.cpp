@@ -33,7 +33,16 @@ void write_whole(std::string const& path, std::string const& text) {
 
 void add_request(json_writer& json, options const& o) {
     json.value("zone", lacuna::to_string(o.zone));
-    json.value("preset", o.preset == lacuna::specimen_preset::literal ? "literal" : "lattice");
+    json.value("preset", o.preset);
+    json.open('{', "choices");
+    for (choice_field const& f : choice_fields()) {
+        double const value = f.get(o.open);
+        if (f.type == choice_field::kind::word || !std::isfinite(value))
+            json.value(f.name, f.text(o.open));
+        else
+            json.value(f.name, value);
+    }
+    json.close('}');
     json.value("seed", o.seed);
     json.value("length_um", o.length_um);
     json.value("height_um", o.height_um);

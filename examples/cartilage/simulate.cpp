@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <string>
@@ -15,35 +14,14 @@
 
 #include "aftermath.hpp"
 #include "cartilage_model.hpp"
+#include "ending.hpp"
+#include "run_scene.hpp"
 
 namespace cartilage {
 
 namespace {
 
 volatile std::sig_atomic_t stop_requested = 0;
-
-constexpr double longest_run = 40e-9;   // s, without --duration
-constexpr double quiet_time = 20e-9;    // s without a break
-constexpr double quiet_fraction = 1e-3; // of the largest kinetic energy
-
-template <class Simulation>
-std::vector<lacuna::scene::pore> pores_of([[maybe_unused]] Simulation const& sim) {
-    std::vector<lacuna::scene::pore> pores;
-    if constexpr (requires { sim.flow().network(); }) {
-        auto const& network = sim.flow().network();
-        for (std::size_t p = 0; p < network.pores(); ++p)
-            pores.push_back({lacuna::pore_middle(network, p, sim.particles().positions()), network.pressure[p]});
-    }
-    return pores;
-}
-
-template <class Simulation>
-lacuna::scene picture_of(Simulation const& sim, specimen const& s, options const& o,
-                         std::vector<crack_record> const& cracks) {
-    std::vector<lacuna::vec<double, 2>> position(sim.size());
-    for (std::size_t id = 0; id < sim.size(); ++id) position[id] = sim.position(id);
-    return damage_scene(s, o, position, cracks, pores_of(sim), sim.time());
-}
 
 /// Watches a run: keeps its cracks, its largest pressure, its progress and pictures, and says when it is over.
 class watch {
@@ -52,8 +30,8 @@ public:
     static constexpr bool needs_energy = true;
 
     watch(specimen const& s, options const& o, output_directory& out, lacuna::progress_options const& progress,
-          double duration, run_result& result)
-        : specimen_(s), options_(o), out_(out), progress_(progress), duration_(duration), result_(result) {}
+          ending& end, run_result& result)
+        : specimen_(s), options_(o), out_(out), progress_(progress), ending_(end), result_(result) {}
 
     template <class Event, class Simulation>
     void on_break(Event const& event, Simulation const&) {
@@ -81,10 +59,10 @@ public:
             result_.ended = "interrupted";
             return lacuna::run_control::stop;
         }
-        // The step may come out longer than when the steps were counted, once idle throats are left out.
-        bool const over = sim.time() >= duration_ * (1 - 1e-12);
-        return over || is_quiet(sim.energy().kinetic, sim.time()) ? lacuna::run_control::stop
-                                                                  : lacuna::run_control::go_on;
+        double const last_break = result_.cracks.empty() ? 0.0 : result_.cracks.back().time;
+        bool const quiet = ending_.is_quiet(sim.energy().kinetic, sim.time(), last_break);
+        if (quiet) result_.ended = "quiet";
+        return quiet || ending_.is_over(sim.time()) ? lacuna::run_control::stop : lacuna::run_control::go_on;
     }
     template <class Simulation>
     void on_start(Simulation const& sim) {
@@ -95,45 +73,32 @@ public:
     void finish(long long steps) { progress_.finish(steps, "broken " + std::to_string(result_.cracks.size())); }
 
 private:
-    bool is_quiet(double kinetic, double time) {
-        highest_kinetic_ = std::max(highest_kinetic_, kinetic);
-        if (options_.duration_ns || !(kinetic < quiet_fraction * highest_kinetic_)) return false;
-        double const last_break = result_.cracks.empty() ? 0.0 : result_.cracks.back().time;
-        if (time - last_break < quiet_time) return false;
-        result_.ended = "quiet";
-        return true;
-    }
-
     specimen const& specimen_;
     options const& options_;
     output_directory& out_;
     lacuna::progress_reporter<> progress_;
-    double duration_;
+    ending& ending_;
     run_result& result_;
-    double highest_kinetic_ = 0;
 };
 
 template <class Model>
 run_result follow(specimen const& s, options const& o, output_directory& out, std::FILE* progress,
                   lacuna::scene& damage) {
-    auto parameters = model_parameters<Model>(s, o.specimen().contact_tolerance);
-    parameters.threads = o.threads;
-    lacuna::simulation<Model> sim(s.discs, parameters);
-    set_up(sim, s, o.load_MPa * 1e6);
+    auto const loaded = load_specimen<Model>(s, o);
+    lacuna::simulation<Model>& sim = *loaded;
 
     run_result result;
     result.specimen = report_of(s);
-    double const duration = o.duration_ns ? *o.duration_ns * 1e-9 : longest_run;
-    double const steps = std::ceil(duration / sim.time_step() * (1 - 1e-12));
-    if (!(steps < 1e15)) throw usage_error("--duration " + lacuna::to_text(duration * 1e9) + ": too many steps");
-    result.ended = o.duration_ns ? "duration" : "limit";
+    ending end(o);
+    long long const steps = end.steps(sim.time_step());
+    result.ended = end.at_longest();
 
     lacuna::progress_options speak;
     speak.sink = progress;
-    speak.steps = std::max(1LL, static_cast<long long>(steps));
+    speak.steps = steps;
     speak.particles = static_cast<long long>(sim.size());
     speak.terminal = lacuna::is_terminal(progress);
-    watch observer(s, o, out, speak, duration, result);
+    watch observer(s, o, out, speak, end, result);
 
     auto const start = std::chrono::steady_clock::now();
     sim.run(speak.steps, observer);
@@ -163,10 +128,13 @@ run_result follow(specimen const& s, options const& o, output_directory& out, st
 } // namespace
 
 void request_stop() noexcept { stop_requested = 1; }
+bool stop_is_requested() noexcept { return stop_requested != 0; }
 
 run_result simulate(specimen const& s, options const& o, output_directory& out, std::FILE* progress,
                     lacuna::scene& damage) {
-    return o.dry ? follow<dry_model>(s, o, out, progress, damage) : follow<wet_model>(s, o, out, progress, damage);
+    return visit_model(o.open, o.dry, [&]<class Model>(std::type_identity<Model>) {
+        return follow<Model>(s, o, out, progress, damage);
+    });
 }
 
 } // namespace cartilage

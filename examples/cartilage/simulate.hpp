@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdio>
+#include <stdexcept>
 
 #include "options.hpp"
 #include "output.hpp"
@@ -10,8 +11,15 @@
 
 namespace cartilage {
 
-/// Asks a run to end after its current step; safe to call from a signal handler.
+/// Asks all runs to end after their current step; safe to call from a signal handler.
 void request_stop() noexcept;
+bool stop_is_requested() noexcept;
+
+/// Work that was ended by request_stop() before it had a result.
+class interruption : public std::runtime_error {
+public:
+    interruption() : std::runtime_error("interrupted") {}
+};
 
 /// Loads the specimen and follows it to the end, with progress on `progress` (null: silent) and pictures on the way
 /// into `out`, as the command line asks. `damage` receives the scene at the end.

@@ -2,11 +2,11 @@
 #include "picture.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
+#include <vector>
 
 #include <lacuna/observe/canvas.hpp>
 #include <lacuna/observe/canvas_furniture.hpp>
+#include <lacuna/observe/plot.hpp>
 
 namespace poroelasticity {
 
@@ -17,8 +17,6 @@ using lacuna::color;
 using lacuna::rectangle;
 
 constexpr color ink{0.13, 0.13, 0.15};
-constexpr color pale{0.85, 0.85, 0.87};
-constexpr std::array<color, 3> inks{{{0.10, 0.35, 0.75}, {0.80, 0.30, 0.10}, {0.15, 0.55, 0.25}}};
 constexpr double em = 12;
 
 rectangle extent_of(pressure_field const& f) {
@@ -56,51 +54,6 @@ void draw_field(canvas& page, pressure_field const& f, rectangle const& frame) {
     page.text({0.5 * (frame.left + frame.right), foot + 20}, f.moment, em, ink, lacuna::text_align::center);
 }
 
-/// The plane of a plot: what is at its edges, and where points of it are on the page.
-struct plot_plane {
-    rectangle frame;
-    double left, right, low, high;
-    bool logarithmic;
-
-    canvas::point at(double x, double y) const {
-        double const share = logarithmic ? std::log(x / left) / std::log(right / left) : (x - left) / (right - left);
-        return {frame.left + share * frame.width(), frame.high - (y - low) / (high - low) * frame.height()};
-    }
-};
-
-void draw_axes(canvas& page, plot_plane const& plane, outcome const& o) {
-    auto const labelled_x = [&](double x, std::string const& label) {
-        auto const foot = plane.at(x, plane.low);
-        page.add_line({foot[0], plane.frame.low}, {foot[0], plane.frame.high});
-        page.stroke(pale, 1);
-        if (!label.empty()) page.text({foot[0], plane.frame.high + 18}, label, em, ink, lacuna::text_align::center);
-    };
-    if (plane.logarithmic) {
-        for (double decade = 1e-6; decade < 1e6; decade *= 10)
-            for (double const factor : {1.0, 2.0, 5.0}) {
-                double const x = decade * factor;
-                if (x >= plane.left * (1 - 1e-9) && x <= plane.right * (1 + 1e-9))
-                    labelled_x(x, lacuna::to_text(std::round(x * 1e6) / 1e6));
-            }
-    } else {
-        auto const ticks = lacuna::nice_ticks(plane.left, plane.right);
-        auto const labels = lacuna::tick_labels(ticks);
-        for (std::size_t k = 0; k < ticks.size(); ++k) labelled_x(ticks[k], labels[k]);
-    }
-    auto const ticks = lacuna::nice_ticks(plane.low, plane.high, 8);
-    auto const labels = lacuna::tick_labels(ticks);
-    for (std::size_t k = 0; k < ticks.size(); ++k) {
-        double const y = plane.at(plane.left, ticks[k])[1];
-        page.add_line({plane.frame.left, y}, {plane.frame.right, y});
-        page.stroke(pale, 1);
-        page.text({plane.frame.left - 9, y}, labels[k], em, ink, lacuna::text_align::right);
-    }
-    page.add_rectangle(plane.frame);
-    page.stroke(ink, 1.2);
-    page.text({0.5 * (plane.frame.left + plane.frame.right), plane.frame.high + 44}, o.x_label, em, ink,
-              lacuna::text_align::center);
-}
-
 void draw_plot(canvas& page, outcome const& o, rectangle const& frame) {
     double high = 0, low = 1e300;
     for (auto const& curve : o.curves)
@@ -111,24 +64,24 @@ void draw_plot(canvas& page, outcome const& o, rectangle const& frame) {
     if (low < 0.5 * high) low = 0;
     double const left = o.logarithmic ? o.curves.front().points.front().x : 0;
     double const right = o.logarithmic ? o.curves.front().points.back().x : 1;
-    plot_plane const plane{frame, left * (1 - 1e-3), right * (1 + 1e-3), low - 0.1 * (high - low) * (low > 0),
-                           high + 0.05 * (high - low), o.logarithmic};
-    draw_axes(page, plane, o);
-    double y = frame.low - 14 - 22 * double(o.curves.size() - 1);
-    for (std::size_t c = 0; c < o.curves.size(); ++c, y += 22) {
-        auto const& points = o.curves[c].points;
-        for (std::size_t k = 1; k < points.size(); ++k)
-            page.add_line(plane.at(points[k - 1].x, points[k - 1].reference),
-                          plane.at(points[k].x, points[k].reference));
-        page.stroke(inks[c % inks.size()], 1.6);
-        for (auto const& p : points) page.add_disc(plane.at(p.x, p.value), 2.8);
-        page.stroke(inks[c % inks.size()], 1.3);
-        page.add_line({frame.left, y}, {frame.left + 26, y});
-        page.stroke(inks[c % inks.size()], 1.6);
-        page.add_disc({frame.left + 13, y}, 2.8);
-        page.stroke(inks[c % inks.size()], 1.3);
-        page.text({frame.left + 36, y}, o.curves[c].name, em, ink);
+    auto const scale = o.logarithmic ? lacuna::axis_scale::logarithmic : lacuna::axis_scale::linear;
+    lacuna::plot plane(
+        page, frame, {left * (1 - 1e-3), right * (1 + 1e-3), o.x_label, scale, 12},
+        {low - 0.1 * (high - low) * (low > 0), high + 0.05 * (high - low), "", lacuna::axis_scale::linear, 8},
+        {em, ink});
+    plane.draw_axes();
+    std::vector<lacuna::legend_entry> legend;
+    for (std::size_t c = 0; c < o.curves.size(); ++c) {
+        lacuna::plot::points lines, circles;
+        for (auto const& p : o.curves[c].points) {
+            lines.push_back({p.x, p.reference});
+            circles.push_back({p.x, p.value});
+        }
+        plane.line(lines, lacuna::plot_ink(c));
+        plane.markers(circles, lacuna::plot_mark::ring, lacuna::plot_ink(c), 2.8);
+        legend.push_back({lacuna::legend_mark::line_and_ring, lacuna::plot_ink(c), o.curves[c].name});
     }
+    lacuna::draw_legend(page, {frame.left, frame.low - 14 - 1.65 * em * double(o.curves.size() - 1)}, legend, em, ink);
 }
 
 } // namespace

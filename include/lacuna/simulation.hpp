@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -16,6 +17,8 @@
 #include <lacuna/interactions/walls.hpp>
 #include <lacuna/loads/load_set.hpp>
 #include <lacuna/loads/prescribed_motion.hpp>
+#include <lacuna/loads/rigid_plates.hpp>
+#include <lacuna/loads/wall_drive.hpp>
 #include <lacuna/model.hpp>
 #include <lacuna/observe/observer.hpp>
 #include <lacuna/particles/spatial_order.hpp>
@@ -72,6 +75,7 @@ public:
         interactions_ = interactions_type(store_, packing.bonds, p.materials, p.thickness, p.interactions, p.damping,
                                           p.bonds);
         walls_ = wall_contacts<contact_law_type, damping_type, real, dim>(p.walls, contact_materials, p.thickness);
+        wall_drive_ = wall_drive<dim>(p.walls.size(), p.thickness);
         smallest_radius_ = store_.size() ? *std::min_element(store_.radii().begin(), store_.radii().end()) : real(1);
         update_walls();
         reports_.resize(std::size_t(interactions_.chunks()));
@@ -103,6 +107,13 @@ public:
     }
     /// Prescribes the motion along the given axes: there the particle keeps the velocity it has or is given.
     void fix(std::size_t id, fixed_axes const& axes = fixed_axes::all()) { store_.fix(internal(id), axes); }
+    /// Joins particles to a rigid, smooth plate, see rigid_plates: from now on they move as one along the axis. Not to
+    /// be given velocities of their own afterwards.
+    void join(std::span<std::size_t const> ids, int axis) {
+        std::vector<std::size_t> particles;
+        for (std::size_t const id : ids) particles.push_back(internal(id));
+        plates_.add(store_, std::move(particles), axis);
+    }
     /// Applies a force and a torque on top of gravity; replaces the ones applied before. N, N m.
     /// \param ramp_time within which it rises linearly from zero, from now on, s; 0: at once
     void apply(std::size_t id, point const& force, vec<double, rotation_dim<dim>> const& torque, double ramp_time = 0) {
@@ -120,6 +131,17 @@ public:
     }
     /// \}
 
+    /// \name Acting on walls, by their number in simulation_parameters::walls; see walls() for their places and forces
+    /// \{
+    /// Moves a wall: from the velocity it has to v, linearly within ramp_time from now on; 0: at once. m/s, s. The ledger
+    /// books its work as that of prescribed motion.
+    void move_wall(std::size_t w, point const& v, double ramp_time = 0) {
+        wall_drive_.move(walls_, w, v, ramp_time, now().time);
+    }
+    /// Lets a servo hold the stress on a wall from now on, until move_wall().
+    void hold_wall(std::size_t w, wall_servo<dim> const& servo) { wall_drive_.hold(w, servo); }
+    /// \}
+
     /// Fills the pores with fluid (models with flow; before the first step).
     /// \param make callable (points_view positions, Real const* radii) -> pore_network, in the simulation's own
     ///        numbering of particles; see triangulate_body() and make_pore_network(). With remeshing a copy is kept,
@@ -129,7 +151,7 @@ public:
     void fill_pores(Make const& make)
         requires(has_fluid<Model>)
     {
-        fluid_.fill(store_, interactions_, parameters_.flow, parameters_.remeshing, parameters_.thickness, make);
+        fluid_.fill(store_, interactions_, parameters_.flow, parameters_.remeshing, dim == 2 ? parameters_.thickness : 1.0, make);
         time_step_.reset();
     }
 
@@ -190,8 +212,8 @@ public:
         return force;
     }
 
-    /// Total force on a particle, and torque, at the last evaluation, N, N m: of pairs, fluid, walls, loads and gravity;
-    /// not of damping policies that act on particles.
+    /// Total force on a particle, and torque, at the last evaluation, N, N m: of pairs, fluid, walls, loads, gravity and
+    /// the plate that it is joined to; not of damping policies that act on particles.
     /// \throws std::logic_error when forces are not kept: see simulation_parameters::keep_pair_forces
     point force(std::size_t id) const { return convert<double>(kept_force(id).force); }
     vec<double, rotation_dim<dim>> torque(std::size_t id) const { return convert<double>(kept_force(id).turning) * this->radius(id); }
@@ -219,10 +241,12 @@ public:
         ar(store_, loads_);
         interactions_archive::apply(ar, interactions_, store_);
         walls_.archive(ar, store_);
+        ar(wall_drive_);
         fluid_.archive(ar, store_);
-        ar(events_, kicked_, motions_, ledger_, growth_, time_step_, moved_, step_, planned_steps_, planned_end_);
+        ar(events_, kicked_, motions_, plates_, ledger_, growth_, time_step_, moved_, step_, planned_steps_, planned_end_);
         ar(clock_.time, clock_.step, clock_.last, streams_);
         require_state(motions_.fits(store_.size()), "a motion prescribed to no particle");
+        require_state(plates_.fit(store_.size()), "a rigid plate of no particle");
         for (auto const& k : kicked_) require_state(k.particle < store_.size(), "a velocity given to no particle");
         require_state(!time_step_ || (*time_step_ > 0 && std::isfinite(*time_step_)), "its time step");
         for (auto const number : {step_, planned_steps_, planned_end_})
@@ -247,7 +271,7 @@ private:
     void take_step() {
         settle_time_step();
         bool const changed = interactions_.update(store_, moved_);
-        if (changed) update_walls();
+        if (changed || walls_.outdated(moved_)) update_walls();
         // Slips are those of the motion that led here, with the step of then.
         auto const before = real(step_ > 0 ? clock_.last : *time_step_);
         if (changed && parameters_.follow_critical_step) follow_critical_step();
@@ -258,7 +282,8 @@ private:
         for (auto& r : reports_) r = {};
 
         int const chunks = interactions_.chunks();
-        bool const further_forces = filled() || !walls_.empty() || carries_moment<bond_law_type>;
+        bool const further_forces = filled() || !walls_.empty() || !plates_.empty() || carries_moment<bond_law_type> ||
+                                    carries_moment<contact_law_type>;
         bool const on_time = parameters_.velocities_on_time && (step_ == 0 || !kicked_.empty());
         bool remeshed = false;
         bool at_once = !further_forces && kicked_.empty() && !on_time;
@@ -286,6 +311,7 @@ private:
             for_each_chunk(chunks, parameters_.threads,
                            [&](int c) { interactions_.template evaluate<WithEnergy>(store_, c, before); });
             if (further_forces) remeshed = add_further_forces<WithEnergy>(before, changed);
+            drive_walls(double(dt));
             for (auto& k : kicked_) {
                 exchange(k);
                 if constexpr (WithEnergy) ledger_.book_work(work_of_kick(k, before));
@@ -304,12 +330,12 @@ private:
             auto pairs = interactions_.energy();
             pairs += wall_energy_;
             ledger_.template keep<flow_type>(pairs, interactions_.fracture_energy(), reports_, double(before), double(dt),
-                                             fluid_.get());
+                                             fluid_.get(), wall_power_);
         } else {
             ledger_.close();
         }
         check_energy(store_, growth_, WithEnergy ? &ledger_.ledger() : nullptr, moved_, smallest_radius_, now());
-        if constexpr (has_fluid<Model> && dim == 2)
+        if constexpr (has_fluid<Model>)
             if (parameters_.remeshing.rule == remesh_rule::never && (changed || step_ % 64 == 63))
                 check_pores(store_, fluid_.get()->network(), now());
         ++step_;
@@ -399,7 +425,20 @@ private:
                 throw_unstable(store_, now(), beyond, "its centre is beyond a wall",
                                "the load or speed is too high for the stiffness of the wall");
         }
+        if (!plates_.empty())
+            plates_.share(store_, [&](std::size_t k) { return total_force(store_, interactions_, extra_, k).force; },
+                          extra_);
         return remeshed;
+    }
+
+    void drive_walls(double dt) {
+        if (walls_.empty()) return;
+        wall_drive_.advance(walls_, time(), dt);
+        wall_power_ = walls_.advance(dt);
+        if (double const way = walls_.fastest() * dt; way > 0.1 * double(smallest_radius_))
+            throw_unstable(store_, now(), -1,
+                           "a wall moved " + to_text(way / double(smallest_radius_)) + " of the smallest radius in one step (limit 0.1)",
+                           "its velocity is too high");
     }
 
     /// Throats are left out for the run that was announced; ones that open within it are taken up again here.
@@ -484,6 +523,8 @@ private:
     wall_contacts<contact_law_type, damping_type, real, dim> walls_;
     load_set<real, dim> loads_;
     mutable fluid_coupling<Model> fluid_; // mutable: which throats are left out is settled with the time step
+    wall_drive<dim> wall_drive_;
+    std::array<double, 2> wall_power_{};
     pair_energy wall_energy_;
     record_column<real> extra_;
     std::vector<motion_report<real>> reports_;
@@ -492,6 +533,7 @@ private:
     ledger_keeper<real> ledger_;
     growth_watch<real> growth_;
     prescribed_motion<dim> motions_;
+    rigid_plates<real, dim> plates_;
     mutable std::optional<double> time_step_;
     /// When the present time step began to apply, and how long the last step was.
     struct step_clock {

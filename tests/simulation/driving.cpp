@@ -148,3 +148,54 @@ TEST_CASE("particles without contacts pass through each other", "[interactions]"
     REQUIRE_THAT(sim.position(0)[0], WithinRel(3.0, 1e-12));
     REQUIRE(sim.pairs().contacts().size() == 0);
 }
+
+TEST_CASE("a rigid plate moves its particles as one, under the sum of their forces", "[loads]") {
+    // Springs of 1 and 3 N/m to fixed discs, masses of 1 and 4 kg, and a load on one of them: one oscillator of 4 N/m and
+    // 5 kg about F / 4.
+    lacuna::packing<double, 2> discs;
+    discs.add({0, 0}, 0.5);
+    discs.add({1, 0}, 0.5);
+    discs.add({0, 5}, 1);
+    discs.add({2, 5}, 1);
+    discs.bonds = {{0, 1}, {2, 3}};
+    auto p = springs<plane>(1, 1, 0, 4 / pi);
+    p.bonds = {{.normal_stiffness = 1}, {.normal_stiffness = 3}};
+    p.time_step = 1e-3;
+    lacuna::simulation<plane> sim(discs, p);
+    sim.fix(0);
+    sim.fix(2);
+    REQUIRE_THAT(sim.mass(3), WithinRel(4.0, 1e-12));
+    std::size_t const both[] = {3, 1};
+    sim.join(both, 0);
+    sim.apply(1, {1e-3, 2e-4});
+    double worst = 0;
+    for (int step = 1; step <= 4000; ++step) {
+        sim.step_with_energy();
+        double const expected = 1e-3 / 4 * (1 - std::cos(std::sqrt(4.0 / 5) * sim.time()));
+        worst = std::max(worst, std::fabs(sim.position(1)[0] - 1 - expected));
+        REQUIRE_THAT(sim.position(3)[0] - 2, WithinAbs(sim.position(1)[0] - 1, 1e-13));
+        REQUIRE_THAT(sim.velocity(3)[0], WithinAbs(sim.velocity(1)[0], 1e-16));
+    }
+    // Euler's first step is half a step early: v dt / 2, at most 1e-3 / 4 * 0.9 * 5e-4.
+    REQUIRE(worst < 1.2e-7);
+    REQUIRE(sim.position(3)[1] == 5);
+    REQUIRE(std::fabs(sim.position(1)[1]) > 1e-5); // across the plate it is free
+    REQUIRE_THAT(sim.energy().residual(), WithinAbs(0, 1e-9 * sim.energy().largest()));
+    // What holds one particle holds the plate.
+    lacuna::simulation<plane> held(discs, p);
+    held.fix(0);
+    held.fix(3);
+    held.join(both, 0);
+    held.apply(1, {1e-3, 0});
+    held.run(100);
+    REQUIRE(held.position(1)[0] == 1);
+
+    std::size_t const again[] = {1}, twice[] = {0, 0};
+    REQUIRE_THROWS_WITH(sim.join(again, 0),
+                        "particle 1 of a rigid plate = given twice: must be in one plate along an axis, once");
+    REQUIRE_THROWS_AS(sim.join(twice, 1), std::invalid_argument);
+    REQUIRE_THROWS_AS(sim.join({}, 1), std::invalid_argument);
+    REQUIRE_THROWS_AS(sim.join(both, 2), std::invalid_argument);
+    sim.set_velocity(1, {0, 1});
+    REQUIRE_THROWS_WITH(sim.join(both, 1), contains_text("velocity"));
+}

@@ -6,20 +6,24 @@
 #include "reference.hpp"
 #include "simulation/setups.hpp"
 
+#include <lacuna/laws/beam_bond.hpp>
+#include <lacuna/laws/brittle_beam_bond.hpp>
 #include <lacuna/laws/parallel_bond.hpp>
 
 using namespace setups;
 
 namespace {
 
-template <int Dim>
+template <int Dim, class Bond = lacuna::parallel_bond>
 struct beams : lacuna::default_model<Dim> {
     using contact_law = lacuna::no_contact;
-    using bond_law = lacuna::parallel_bond;
+    using bond_law = Bond;
 };
-struct damped_beams : beams<2> {
+template <int Dim, class Bond = lacuna::parallel_bond>
+struct damped_beams_of : beams<Dim, Bond> {
     using damping = lacuna::combined_damping;
 };
+using damped_beams = damped_beams_of<2>;
 
 template <class Model>
 lacuna::simulation_parameters<Model> beam(double kn, double ks, double tensile = never, double shear = never) {
@@ -48,6 +52,97 @@ TEST_CASE("a tip-loaded beam of parallel bonds bends as 4d says", "[moment]") {
         auto const e = sim.orientation(std::size_t(count));
         REQUIRE_THAT(std::atan2(e[1], e[0]) / force, WithinRel(reference("4d.with_bending_spring", n, "tip_rotation"), 1e-6));
     }
+}
+
+namespace {
+
+/// Particles of radii that alternate between 0.5 and `other`, each touching the next, bonded, along x.
+template <int Dim>
+lacuna::packing<double, Dim> uneven_chain(int count, double other) {
+    lacuna::packing<double, Dim> p;
+    lacuna::vec<double, Dim> x{};
+    for (int k = 0; k < count; ++k) {
+        p.add(x, k % 2 == 0 ? 0.5 : other);
+        x[0] += 0.5 + other;
+        if (k > 0) p.bonds.push_back({k - 1, k});
+    }
+    return p;
+}
+
+/// Deflection and turn of the tip of a cantilever of `count` beams under a force across it, over the force.
+template <int Dim>
+std::array<double, 2> tip_of_cantilever(lacuna::packing<double, Dim> const& discs, lacuna::beam_bond::material const& bond,
+                                        double drag, long long steps) {
+    using model = damped_beams_of<Dim, lacuna::beam_bond>;
+    lacuna::simulation_parameters<model> p;
+    p.materials[0].density = unit_density(Dim);
+    p.materials[0].bond = bond;
+    p.damping = {0, drag, 0.3};
+    p.safety = 0.5;
+    lacuna::simulation<model> sim(discs, p);
+    std::size_t const last = discs.size() - 1;
+    sim.fix(0);
+    lacuna::vec<double, Dim> force{};
+    force[1] = 0.6e-9;
+    force[Dim - 1] += Dim == 2 ? 0.4e-9 : 0.8e-9;
+    sim.apply(last, force);
+    sim.run(steps);
+    auto const moved = sim.position(last) - discs.position[last];
+    auto const e = sim.orientation(last);
+    if constexpr (Dim == 2)
+        return {moved[1] / 1e-9, std::atan2(e[1], e[0]) / 1e-9};
+    else
+        return {std::hypot(moved[1], moved[2]) / 1e-9, 2 * std::hypot(e[2], e[3]) / 1e-9};
+}
+
+} // namespace
+
+TEST_CASE("a tip-loaded beam of elastic beams bends as 4d says", "[moment]") {
+    // Its springs, k_n = k_s = 1 and 0.3 against bending, as a section and moduli: k_theta / k_n = R^2 / 3, and
+    // 12 k_theta / (1 + phi) = k_s, phi = 12 k_theta / (kappa G A).
+    double const R = std::sqrt(0.9), young = 1 / (2 * R), kappa = 3.6 / 2.6 / (young / 2 * 2 * R);
+    for (int const count : {5, 10}) {
+        auto const tip = tip_of_cantilever(chain<2>(count + 1), {young, 0, never, never, R / 0.5, kappa},
+                                           count == 5 ? 0.15 : 0.04, count == 5 ? 6000 : 30000);
+        std::string const n = std::to_string(count);
+        REQUIRE_THAT(tip[0], WithinRel(reference("4d.with_bending_spring", n, "tip"), 1e-6));
+        REQUIRE_THAT(tip[1], WithinRel(reference("4d.with_bending_spring", n, "tip_rotation"), 1e-6));
+    }
+}
+
+TEST_CASE("a cantilever of any number of elastic beams has the beam's deflection", "[moment]") {
+    // F L^3 / (3 E I) + F L / (kappa G A), and a turn of F L^2 / (2 E I): exact for one beam, five, and with unequal radii.
+    double const young = 3, nu = 0.2, shear = young / 2.4;
+    for (double const kappa : {never, 0.8})
+        for (int const count : {1, 5}) {
+            INFO(count << " beams, kappa = " << kappa);
+            double const length = count, area = 1, inertia = 1.0 / 12;
+            auto const tip = tip_of_cantilever(chain<2>(count + 1), {young, nu, never, never, 1, kappa}, 0.2, 8000);
+            CHECK_THAT(tip[0], WithinRel(length * length * length / (3 * young * inertia) + length / (kappa * shear * area), 1e-6));
+            CHECK_THAT(tip[1], WithinRel(length * length / (2 * young * inertia), 1e-6));
+        }
+    {
+        double const length = 4 * 0.8, area = pi * 0.09, inertia = pi * 0.0081 / 4;
+        auto const tip = tip_of_cantilever(uneven_chain<3>(5, 0.3), {young, nu, never, never, 1, 0.8}, 0.12, 20000);
+        CHECK_THAT(tip[0], WithinRel(length * length * length / (3 * young * inertia) + length / (0.8 * shear * area), 1e-6));
+        CHECK_THAT(tip[1], WithinRel(length * length / (2 * young * inertia), 1e-6));
+    }
+}
+
+TEST_CASE("elastic beams of unequal radii are stable up to the bound of the step", "[moment]") {
+    lacuna::simulation_parameters<beams<2, lacuna::beam_bond>> p;
+    p.materials[0].density = unit_density(2);
+    p.materials[0].bond = {1e4, 0.3, never, never, 1, 0.8};
+    p.safety = 0.99;
+    lacuna::simulation<beams<2, lacuna::beam_bond>> sim(uneven_chain<2>(8, 0.2), p);
+    sim.set_velocity(3, {0, 1e-6});
+    double const start = sim.kinetic_energy();
+    double most = 0;
+    for (int k = 0; k < 20000; ++k) {
+        sim.step();
+        most = std::max(most, sim.kinetic_energy());
+    }
+    CHECK(most < 3 * start);
 }
 
 TEST_CASE("the stiffness against bending is that of 4e", "[moment]") {
@@ -95,13 +190,19 @@ TEST_CASE("a parallel bond breaks where the stress at its rim says", "[moment]")
     }
 }
 
-TEMPLATE_TEST_CASE_SIG("free beams conserve momenta and energy", "[moment]", ((int Dim), Dim), 2, 3) {
-    auto p = beam<beams<Dim>>(1e4, 4e3);
+TEMPLATE_TEST_CASE_SIG("free beams conserve momenta and energy", "[moment]", ((int Dim, class Bond), Dim, Bond),
+                       (2, lacuna::parallel_bond), (3, lacuna::parallel_bond), (2, lacuna::beam_bond), (3, lacuna::beam_bond)) {
+    lacuna::simulation_parameters<beams<Dim, Bond>> p;
+    p.materials[0].density = unit_density(Dim);
+    if constexpr (std::is_same_v<Bond, lacuna::parallel_bond>)
+        p.materials[0].bond = {1e4, 4e3, never, never, 1};
+    else
+        p.materials[0].bond = {1e4, 0.3, never, never, 1, 0.8};
     p.safety = 0.1;
     auto discs = chain<Dim>(4);
     discs.position[2][1] += 0.3; // bent, and of unequal radii
     discs.radius[1] = 0.4;
-    lacuna::simulation<beams<Dim>> sim(discs, p);
+    lacuna::simulation<beams<Dim, Bond>> sim(discs, p);
     lacuna::vec<double, Dim> v{};
     v[1] = 1;
     v[Dim - 1] += 0.5;
@@ -180,4 +281,78 @@ TEST_CASE("single bonds have values of their own", "[bond values]") {
     p.bonds[1] = {};
     p.bonds[1].tensile_force = -1;
     REQUIRE_THROWS_WITH(lacuna::simulation<plane>(chain<2>(3), p), contains_text("bonds[1].tensile_force = -1"));
+}
+
+TEST_CASE("the paper's bond with a moment", "[moment]") {
+    using law = lacuna::brittle_beam_bond;
+    double const strength = 3, radius = 0.5, thickness = 2, share = 0.25;
+    law::material const m{1e3, 800, strength, 2 * strength, share};
+    auto const p = law::combine(m, {1e3, 800, strength, 2 * strength, 2 * share}, thickness);
+    lacuna::pair_motion<double, 2> still{1, radius, radius, {}, 0};
+    double const area = 2 * radius * thickness;
+    // k_n R^2 / 3, a quarter of it
+    double const k = law::against_turning<2>(p, radius, radius).bending;
+    REQUIRE_THAT(k, WithinRel(share * 1e3 * 0.25 / 3, 1e-12));
+    auto const q = law::against_turning<3>(p, radius, 0.7);
+    REQUIRE_THAT(q.bending, WithinRel(share * 1e3 * 0.25 / 4, 1e-12));
+    REQUIRE_THAT(q.twisting, WithinRel(share * 800 * 0.25 / 2, 1e-12));
+    for (double const axial : {-4.0, 0.0, 2.0}) {
+        double const moment = (strength * area - axial) * radius / 3; // F_n + 3 |M| / R = sigma A
+        for (double const over : {0.999, 1.001}) {
+            auto const h = law::initial<double, 2>(1 - axial / 1e3, 1);
+            auto const r = law::evaluate(p, still, {{-over * moment / k}, 0}, h);
+            REQUIRE_THAT(r.bending_moment[0], WithinRel(-over * moment, 1e-12));
+            REQUIRE_THAT(r.stored_energy,
+                         WithinRel(0.5 * (axial * axial / 1e3 + over * over * moment * moment / k), 1e-12));
+            REQUIRE(r.broken == (over > 1));
+            REQUIRE((!r.broken || r.broken_in_tension));
+        }
+    }
+    // Crushed at -sigma A, 6 N, where a parallel bond would go on: of 10 N the rest becomes a shorter bond.
+    auto const crushed = law::evaluate(p, still, law::initial<double, 2>(1 + 10 / 1e3, 1));
+    REQUIRE_THAT(crushed.normal_force, WithinRel(-6.0, 1e-12));
+    REQUIRE_THAT(crushed.history.rest_distance, WithinRel(1 + 6 / 1e3, 1e-12));
+    REQUIRE_FALSE(crushed.broken);
+    // In shear at twice the strength: slips of 12 N / 800 N/m.
+    for (double const over : {0.999, 1.001}) {
+        still.slip[0] = over * 12 / 800;
+        auto const r = law::evaluate(p, still, law::initial<double, 2>(1, 1));
+        REQUIRE(r.broken == (over > 1));
+        REQUIRE_FALSE(r.broken_in_tension);
+    }
+    // A stiffness and a strength of its own.
+    auto const own = law::with_values<2>(p, {.normal_stiffness = 500, .bending_stiffness = 7, .tensile_force = 1}, 0.5, 0.7);
+    REQUIRE_THAT(law::against_turning<2>(own, 0.5, 0.7).bending, WithinRel(7.0, 1e-12));
+    REQUIRE(own.spring.normal_stiffness == 500);
+    REQUIRE_THAT(own.spring.tensile_strength * area, WithinRel(1.0, 1e-12));
+    REQUIRE_THROWS_WITH((law::material{1, 1, 1, 1, -1}.validate("m")), "m.bending_ratio = -1: must be >= 0 and finite");
+}
+
+TEST_CASE("without a moment it is the paper's bond, run by run", "[moment]") {
+    struct beam_model : lacuna::default_model<2> {
+        using bond_law = lacuna::brittle_beam_bond;
+    };
+    auto discs = chain<2>(5);
+    discs.position[2][1] += 0.2;
+    auto const run = [&](auto sim) {
+        sim.fix(0);
+        sim.apply(4, {-3, 20});
+        sim.run(600);
+        REQUIRE(std::any_of(sim.pairs().bond_records().begin(), sim.pairs().bond_records().end(),
+                            [](auto const& b) { return b.state != lacuna::bond_state::intact; }));
+        std::vector<double> found;
+        for (std::size_t id = 0; id < 5; ++id) {
+            found.push_back(sim.position(id)[0]);
+            found.push_back(sim.position(id)[1]);
+            found.push_back(sim.orientation(id)[1]);
+        }
+        return found;
+    };
+    auto plain = springs<plane>(1e4, 4e3, 0.1, unit_density(2), 12, 12);
+    lacuna::simulation_parameters<beam_model> beam;
+    beam.materials = {{unit_density(2), {1e4, 4e3, 0.1}, {1e4, 4e3, 12, 12, 0}}};
+    plain.time_step = beam.time_step = 2e-3;
+    auto const expected = run(lacuna::simulation<plane>(discs, plain));
+    auto const found = run(lacuna::simulation<beam_model>(discs, beam));
+    for (std::size_t k = 0; k < found.size(); ++k) REQUIRE_THAT(found[k], WithinAbs(expected[k], 1e-9));
 }

@@ -96,9 +96,20 @@ public:
     void add_rectangle(rectangle const& r) noexcept {
         cairo_rectangle(context_, r.left, r.low, r.width(), r.height());
     }
-    void add_polygon(std::initializer_list<point> corners) noexcept {
-        for (point const& p : corners) cairo_line_to(context_, p[0], p[1]);
+    /// \param corners any range of page points
+    template <class Corners>
+    void add_polygon(Corners const& corners) noexcept {
+        add_path(corners);
         cairo_close_path(context_);
+    }
+    void add_polygon(std::initializer_list<point> corners) noexcept {
+        add_polygon<std::initializer_list<point>>(corners);
+    }
+    /// A line through all points of a range.
+    template <class Points>
+    void add_path(Points const& points) noexcept {
+        cairo_new_sub_path(context_);
+        for (point const& p : points) cairo_line_to(context_, p[0], p[1]);
     }
     void fill(color const& c) noexcept {
         set(c);

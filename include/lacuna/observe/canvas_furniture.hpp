@@ -122,7 +122,7 @@ inline void draw_hatched_line(canvas& page, canvas::point const& from, canvas::p
 }
 
 /// How an entry of a legend is drawn in front of its text.
-enum class legend_mark { disc, dash, line };
+enum class legend_mark { disc, dash, line, ring, diamond, dashes, line_and_ring };
 struct legend_entry {
     legend_mark mark = legend_mark::disc;
     color ink;
@@ -138,9 +138,21 @@ inline double draw_legend(canvas& page, canvas::point const& at, std::vector<leg
         if (entry.mark == legend_mark::disc) {
             page.add_disc(middle, 0.42 * text_size);
             page.fill_and_stroke(entry.ink, mix(entry.ink, {0, 0, 0}, 0.4), 0.8);
-        } else {
+        } else if (entry.mark == legend_mark::diamond) {
+            double const size = 0.45 * text_size;
+            page.add_polygon({middle + canvas::point{-size, 0}, middle + canvas::point{0, -size},
+                              middle + canvas::point{size, 0}, middle + canvas::point{0, size}});
+            page.fill(entry.ink);
+        } else if (entry.mark != legend_mark::ring) {
             page.add_line({middle[0] - 10, y}, {middle[0] + 10, y});
-            page.stroke(entry.ink, entry.mark == legend_mark::dash ? 5 : 2, true);
+            if (entry.mark == legend_mark::dashes)
+                page.stroke_dashed(entry.ink, 1.6, 5, 4);
+            else
+                page.stroke(entry.ink, entry.mark == legend_mark::dash ? 5 : 2, true);
+        }
+        if (entry.mark == legend_mark::ring || entry.mark == legend_mark::line_and_ring) {
+            page.add_disc(middle, 0.25 * text_size);
+            page.stroke(entry.ink, 1.3);
         }
         page.text({at[0] + 30, y}, entry.text, text_size, text_ink);
         y += 1.65 * text_size;

@@ -59,7 +59,8 @@ inline bool is_terminal(std::FILE* file) noexcept {
 struct progress_options {
     std::FILE* sink = nullptr;    ///< where it writes; null: it stays silent
     long long steps = 1;          ///< steps of the whole run
-    long long particles = 1;      ///< for the rate in particle-steps per second
+    long long particles = 1;      ///< for the rate, which counts particles times steps
+    char const* unit = "particle-steps"; ///< what is counted a second; null: no rate
     bool terminal = false;        ///< rewrite one line (see is_terminal), or write plain lines now and then
     double refresh_seconds = 0.1; ///< least time between two rewrites
     double line_seconds = 5;      ///< least time between two plain lines
@@ -126,7 +127,7 @@ private:
             line += "] ";
         }
         line += head;
-        line += "  " + rate_text(rate) + " particle-steps/s";
+        if (options_.unit != nullptr) line += "  " + rate_text(rate) + " " + options_.unit + "/s";
         line += finished_ ? "  took " + clock_text(elapsed) : "  left " + clock_text(left);
         if (!note.empty()) line += "  " + std::string(note);
         // A shorter line must cover what the longer one before it left on the terminal.

@@ -7,6 +7,7 @@
 
 #include <lacuna/particles/cartilage_specimen_fibres.hpp>
 #include <lacuna/particles/cartilage_specimen_lattice.hpp>
+#include <lacuna/particles/cartilage_specimen_links.hpp>
 #include <lacuna/particles/cartilage_specimen_types.hpp>
 #include <lacuna/particles/packing_dense.hpp>
 #include <lacuna/particles/random_packing.hpp>
@@ -110,10 +111,13 @@ cartilage_specimen<Real> make_cartilage_specimen(cartilage_specimen_parameters c
         double const x = s.discs.position[std::size_t(i)][0];
         if (x >= s.left + p.loaded_margin * d && x <= s.right - p.loaded_margin * d) s.loaded.push_back(i);
     }
+    link_fibres(s, 2 * p.contact_tolerance, p.link_fibres, p.link_matrix);
     s.statistics = measure_packing(s.discs, (s.right - s.left) * p.height, 2 * p.contact_tolerance);
 
     cartilage_specimen<Real> result;
     result.discs = convert_packing<Real>(s.discs);
+    result.fibre_links = s.fibre_links;
+    result.matrix_links = s.matrix_links;
     result.fibre = s.fibre;
     result.fibres = s.fibres;
     result.fixed = s.fixed;

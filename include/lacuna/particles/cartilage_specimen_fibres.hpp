@@ -97,6 +97,7 @@ private:
             count = int(std::floor((top - s_.middle_top) / wanted + 0.75));
         }
         s_.surface_spacing = spacing;
+        if (p_.fibre_layers > 0) count = std::min(count, p_.fibre_layers);
         for (int k = 0; k < count; ++k) {
             cartilage_fibre f;
             lay_radii<double, 2>(s_.discs, f, {0, top - k * spacing}, {1, 0},
@@ -123,6 +124,7 @@ private:
             }
         }
         s_.deep_spacing = spacing;
+        if (p_.fibre_layers > 0) each = std::min(each, p_.fibre_layers - 1);
         std::vector<double> x;
         for (int k = -each; k <= each; ++k) x.push_back(half + k * spacing);
         return x;
@@ -166,8 +168,9 @@ private:
     /// A network of straight fibres at random places and directions between two heights. Its length per area is that
     /// of parallel fibres at the spacing. A fibre that meets another ends there, touching it, and goes on beyond it
     /// as a fibre of its own.
-    void middle(double low, double high) {
+    void middle(double bottom, double high) {
         double const spacing = p_.fibre_spacing * p_.diameter();
+        double const low = p_.fibre_layers > 0 ? std::max(bottom, high - p_.fibre_layers * spacing) : bottom;
         double const wanted = p_.length * (high - low) / spacing;
         std::size_t const first = s_.fibres.size();
         double laid = 0;
@@ -192,7 +195,7 @@ private:
             double y = 0;
             for (auto i : s_.fibres[f].particles) y += s_.discs.position[std::size_t(i)][1];
             y /= double(s_.fibres[f].particles.size());
-            s_.fibres[f].layer = std::clamp(int(5 * (high - y) / (high - low)), 0, 4);
+            s_.fibres[f].layer = std::clamp(int(5 * (high - y) / (high - bottom)), 0, 4);
             s_.fibres[f].order = s_.fibres[f].layer;
         }
     }

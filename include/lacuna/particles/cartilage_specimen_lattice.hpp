@@ -74,7 +74,7 @@ private:
             s_.fixed.push_back(column.front());
             if (p_.zone == cartilage_zone::deep) s_.top.push_back(column.back());
             tips.push_back(s_.discs.position.back());
-            if (k % stride_ == 0)
+            if (k % stride_ == 0 && laid(std::abs(k) / stride_))
                 finish(column, cartilage_zone::deep, std::abs(k) / stride_, k / stride_, deep_collagen);
         }
         if (p_.zone == cartilage_zone::deep) return 0;
@@ -87,6 +87,8 @@ private:
             }
         return rest;
     }
+
+    bool laid(int layer) const { return p_.fibre_layers == 0 || layer < p_.fibre_layers; }
 
     int row_count() const { return int((p_.length + 1e-9 * r_) / (2 * r_)); }
 
@@ -116,7 +118,7 @@ private:
         if (p_.zone != cartilage_zone::middle) {
             s_.surface_spacing = stride_ * apart;
             double const least = p_.zone == cartilage_zone::whole ? s_.middle_top : base + stride_ * apart / 2;
-            for (int k = 0; k * stride_ < count; ++k) {
+            for (int k = 0; k * stride_ < count && laid(k); ++k) {
                 int const j = count - 1 - k * stride_;
                 if (y[std::size_t(j)] < least) break;
                 finish(ids(j), cartilage_zone::surface, k, k, surface_collagen);
@@ -139,6 +141,7 @@ private:
         auto const right = [&](int h, int j) { return wraps((h - centre) - (j - low) + (centre + low) % 2); };
         auto const left = [&](int h, int j) { return wraps((centre - h) - (j - low) + (centre + low) % 2); };
         double const bottom = y[std::size_t(low)], top = y[std::size_t(std::max(low, high))];
+        int const lowest = p_.fibre_layers > 0 ? std::max(low, high + 1 - p_.fibre_layers * stride_) : low;
         for (int lean : {1, -1})
             for (int start = -2 * int(y.size()); start <= 2 * wide + 2 * int(y.size()); ++start) {
                 std::vector<std::int32_t> run;
@@ -152,7 +155,7 @@ private:
                     }
                     run.clear();
                 };
-                for (int j = low; j <= high; ++j) {
+                for (int j = lowest; j <= high; ++j) {
                     int const h = start + lean * (j - low);
                     auto const found = site[std::size_t(j)].find(h);
                     bool const there = found != site[std::size_t(j)].end();

@@ -47,6 +47,10 @@ struct cartilage_specimen_parameters {
     double r_min = 1.5e-6;            ///< smallest radius, m (Table 2); preset lattice uses the mean radius
     double r_max = 2e-6;              ///< largest radius, m (Table 2)
     double fibre_spacing = 4;         ///< between neighbouring fibres, centre to centre, diameters; fitted (see result)
+    int fibre_layers = 0; ///< surface fibres from the top, deep fibres on each side counted from the centre one, depth of
+                          ///< the middle network in fibre spacings from its top; 0: as many as there is room for
+    bool link_fibres = false;         ///< bonds between fibres where they touch: see link_fibres()
+    bool link_matrix = false;         ///< bonds between fibres and free particles where they touch
     double deep_fraction = 1.0 / 3;   ///< share of the height, from the bottom; zone `whole` only
     double middle_fraction = 1.0 / 3; ///< share of the height, above the deep zone; zone `whole` only
     double surface_fraction = 1.0 / 3; ///< share of the height, on top; zone `whole` only
@@ -71,6 +75,7 @@ struct cartilage_specimen_parameters {
         require_positive("specimen.length", length);
         require_positive("specimen.height", height);
         require_in("specimen.fibre_spacing", fibre_spacing, 2.0, 1e3);
+        if (fibre_layers < 0) refuse("specimen.fibre_layers", double(fibre_layers), "at least 0");
         require_not_negative("specimen.loaded_margin", loaded_margin);
         require_not_negative("specimen.wall_distance", wall_distance);
         require_not_negative("specimen.thickness", thickness);
@@ -122,7 +127,9 @@ struct cartilage_fibre : fibre_chain {
 /// A specimen, ready to be loaded. Lengths in m, x to the right from the left side, y upward from the bottom.
 template <class Real>
 struct cartilage_specimen {
-    packing<Real, 2> discs;             ///< material: cartilage_material
+    packing<Real, 2> discs;             ///< material: cartilage_material; bonds: those of fibres, links of fibres, of matrix
+    std::size_t fibre_links = 0;        ///< bonds between fibres
+    std::size_t matrix_links = 0;       ///< bonds between fibres and free particles
     std::vector<std::int32_t> fibre;    ///< per particle: number of its fibre, -1 for free particles
     std::vector<cartilage_fibre> fibres;
     std::vector<std::int32_t> fixed;    ///< bottom row, left to right

@@ -81,6 +81,9 @@ time_step_limits find_limits(Store const& store, Interactions const& interaction
         double const twice = 2 * double(store.mass(k));
         if constexpr (dashed) dashpots.add_support(k, normal, dashpot(kn, twice, twice), 0, lever);
     });
+    walls.for_each_moment_stiffness(store, [&](std::size_t k, point const& normal, moment_stiffness<double> const& stiffness) {
+        bound.add_turning(k, normal, stiffness.bending, stiffness.twisting);
+    });
     time_step_limits result;
     result.equation_9 = wave;
     result.equation_19 = result.flow = std::numeric_limits<double>::infinity();

@@ -135,4 +135,17 @@ private:
     std::size_t bonds_ = 0;
 };
 
+/// In space pores keep their mesh: simulation_parameters allow for no other rule.
+template <class Flow, class Real>
+class remesher<Flow, Real, 3> {
+public:
+    template <class... Arguments>
+    void start(Arguments const&...) noexcept {}
+    bool on() const noexcept { return false; }
+    template <class... Arguments>
+    bool remesh(Arguments&&...) noexcept {
+        return false;
+    }
+};
+
 } // namespace lacuna

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pool.hpp"
+
+#include <algorithm>
+#include <exception>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <utility>
+
+#include <lacuna/observe/progress.hpp>
+
+#include "cache.hpp"
+#include "jobs.hpp"
+#include "probe.hpp"
+#include "simulate.hpp"
+
+namespace cartilage {
+
+namespace {
+
+std::string name_of(options const& o) {
+    return std::string(lacuna::to_string(o.zone)) + "-" + std::to_string(o.seed);
+}
+
+std::string key_of(packing_request const& r) {
+    std::string key = cartilage::key_of(r.model) + "loads";
+    for (double const v : {r.loads.lowest_MPa, r.loads.highest_MPa, r.loads.resolution}) key += " " + lacuna::to_text(v);
+    for (double const v : r.loads.first_guess) key += " " + lacuna::to_text(v);
+    return key;
+}
+
+/// The runs of one packing: the ones kept, and those that wait to be asked further.
+class packing_runs {
+public:
+    packing_runs(options const& model, result_cache const& cache) : model_(model), cache_(cache) {}
+
+    probe ask(double load_MPa, question q) {
+        std::string const name = name_of(model_) + "-" + lacuna::to_text(load_MPa) + "MPa-" + cartilage::name_of(q);
+        std::string const key =
+            cartilage::key_of(model_) + "load " + lacuna::to_text(load_MPa) + "\nuntil " + cartilage::name_of(q);
+        if (auto const kept = cache_.find(name, key)) {
+            try {
+                probe p = probe_from(*kept);
+                ++kept_;
+                return p;
+            } catch (std::exception const&) {
+                // Damaged: as if it were not there.
+            }
+        }
+        std::unique_ptr<probe_run>& run = waiting_[load_MPa];
+        if (!run) {
+            if (!specimen_) specimen_ = build_specimen(model_);
+            options o = model_;
+            o.what = command::run;
+            o.load_MPa = load_MPa;
+            run = start_probe(*specimen_, o);
+            ++runs_;
+        }
+        probe p = run->ask(q);
+        cache_.keep(name, key, json_of(p));
+        if (p.invalid || p.whole() || q >= question::complete) waiting_.erase(load_MPa);
+        return p;
+    }
+
+    std::size_t runs() const { return runs_; }
+    std::size_t kept() const { return kept_; }
+
+private:
+    options const& model_;
+    result_cache const& cache_;
+    std::optional<specimen> specimen_;
+    std::map<double, std::unique_ptr<probe_run>> waiting_;
+    std::size_t runs_ = 0, kept_ = 0;
+};
+
+/// "surface 31/80/-": medians of the three loads of what is done so far.
+std::string medians(std::vector<std::optional<packing_result>> const& done) {
+    std::string text;
+    using lacuna::cartilage_zone;
+    for (auto zone : {cartilage_zone::surface, cartilage_zone::middle, cartilage_zone::deep, cartilage_zone::whole}) {
+        std::vector<std::optional<double>> first, capacity, complete;
+        for (auto const& r : done)
+            if (r && r->zone == zone) {
+                first.push_back(r->found.first_crack_MPa);
+                capacity.push_back(r->found.capacity_MPa);
+                complete.push_back(r->found.complete_MPa);
+            }
+        if (!first.empty())
+            text += (text.empty() ? "" : ", ") + std::string(lacuna::to_string(zone)) + " " + median_text(first) + "/" +
+                    median_text(capacity) + "/" + median_text(complete);
+    }
+    return text.empty() ? text : text + " MPa";
+}
+
+} // namespace
+
+std::string median_text(std::vector<std::optional<double>> loads) {
+    if (loads.empty()) return "?";
+    std::sort(loads.begin(), loads.end(), [](auto const& a, auto const& b) { return a && (!b || *a < *b); });
+    auto const& middle = loads[(loads.size() - 1) / 2];
+    if (!middle) return "-";
+    char digits[32];
+    std::snprintf(digits, sizeof digits, "%.0f", *middle);
+    return digits;
+}
+
+std::vector<packing_result> run_packings(std::vector<packing_request> const& requests, pool_options const& how) {
+    result_cache const cache(how.cache);
+    pool_report report;
+    std::vector<std::optional<packing_result>> done(requests.size());
+    std::vector<std::size_t> open;
+    for (std::size_t r = 0; r < requests.size(); ++r) {
+        try {
+            if (auto const kept = cache.find(name_of(requests[r].model), key_of(requests[r])))
+                done[r] = packing_from(*kept);
+        } catch (std::exception const&) {
+            // Damaged: as if it were not there.
+        }
+        if (done[r])
+            ++report.packings_kept;
+        else
+            open.push_back(r);
+    }
+
+    lacuna::progress_options speak;
+    speak.sink = how.progress;
+    speak.terminal = lacuna::is_terminal(how.progress);
+    speak.steps = std::max<long long>(1, static_cast<long long>(open.size()));
+    speak.unit = nullptr;
+    lacuna::progress_reporter<> progress(speak);
+    std::mutex guard;
+    std::size_t finished = 0;
+    auto const note = [&] {
+        return "packings " + std::to_string(finished + report.packings_kept) + "/" + std::to_string(requests.size()) +
+               ", runs " + std::to_string(report.runs) + "  " + medians(done);
+    };
+    share_out(open.size(), how.jobs, [&](std::size_t k) {
+        packing_request const& request = requests[open[k]];
+        packing_runs runs(request.model, cache);
+        packing_result result = find_thresholds(request.loads, [&](double load_MPa, question q) {
+            std::size_t const before = runs.runs();
+            probe p = runs.ask(load_MPa, q);
+            std::lock_guard const lock(guard);
+            report.runs += runs.runs() - before;
+            progress.update(static_cast<long long>(finished), note());
+            return p;
+        });
+        result.zone = request.model.zone;
+        result.seed = request.model.seed;
+        cache.keep(name_of(request.model), key_of(request), json_of(result));
+        std::lock_guard const lock(guard);
+        report.probes_kept += runs.kept();
+        done[open[k]] = std::move(result);
+        ++finished;
+        progress.update(static_cast<long long>(finished), note());
+    });
+    progress.finish(static_cast<long long>(finished), note());
+    if (how.report) *how.report = report;
+
+    std::vector<packing_result> results;
+    for (auto& r : done) results.push_back(std::move(*r));
+    return results;
+}
+
+} // namespace cartilage

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <iterator>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <lacuna/core/error.hpp>
+#include <lacuna/observe/observer.hpp>
+
+#include "aftermath.hpp"
+#include "ending.hpp"
+#include "probe.hpp"
+#include "simulate.hpp"
+
+namespace cartilage {
+
+inline constexpr double largest_residual = 0.01; // of the ledger's largest term
+inline constexpr double largest_jump = 0.1;      // of the kinetic energy in one step, over the ledger's largest term
+inline constexpr long long settled = 100;        // steps: from rest, every term of the first ones is a jump
+inline constexpr long long between_looks = 16;   // steps
+
+/// Counts the damage of fibres and layers as it comes.
+class damage_count {
+public:
+    explicit damage_count(specimen const& s) : cut_(s.fibres.size(), 0), layer_of_(s.fibres.size()) {
+        std::map<std::pair<int, int>, study_layer> by_place;
+        for (auto const& fibre : s.fibres) {
+            study_layer& layer = by_place[{int(fibre.zone), fibre.layer}];
+            layer.zone = lacuna::to_string(fibre.zone);
+            layer.layer = fibre.layer;
+            layer.bonds += int(fibre.bonds.size());
+            bonds_ += int(fibre.bonds.size());
+        }
+        for (std::size_t f = 0; f < s.fibres.size(); ++f) {
+            auto const place = by_place.find({int(s.fibres[f].zone), s.fibres[f].layer});
+            layer_of_[f] = std::size_t(std::distance(by_place.begin(), place));
+        }
+        for (auto const& [place, layer] : by_place) layers_.push_back(layer);
+    }
+
+    /// Bonds beside those of fibres are not part of the damage.
+    void add(study_crack const& crack) {
+        if (crack.fibre < 0) return;
+        ++broken_;
+        cut_count_ += cut_[std::size_t(crack.fibre)] == 0;
+        cut_[std::size_t(crack.fibre)] = 1;
+        study_layer& layer = layers_[layer_of_[std::size_t(crack.fibre)]];
+        ++layer.broken;
+        if (!layer.half_broken_time && 2 * layer.broken >= layer.bonds) layer.half_broken_time = crack.time;
+        if (!first_crack_time) first_crack_time = crack.time;
+        if (!complete_time && 10 * cut_count_ >= 9 * cut_.size()) complete_time = crack.time;
+    }
+
+    std::vector<study_layer> const& layers() const { return layers_; }
+    /// In every zone the first layer is first among the layers of the zone nearest to the surface.
+    study_layer const* first_layer() const { return layers_.empty() ? nullptr : &layers_.front(); }
+    double broken_fraction() const { return bonds_ == 0 ? 0.0 : double(broken_) / double(bonds_); }
+    double cut_fraction() const { return cut_.empty() ? 0.0 : double(cut_count_) / double(cut_.size()); }
+
+    std::optional<double> first_crack_time, complete_time;
+
+private:
+    std::vector<char> cut_;
+    std::size_t cut_count_ = 0;
+    std::vector<std::size_t> layer_of_;
+    std::vector<study_layer> layers_;
+    int bonds_ = 0, broken_ = 0;
+};
+
+/// Follows a run at one load: its damage, its guards, and whether the answer that is sought is certain.
+class probe_watch {
+public:
+    static constexpr lacuna::stage stages = lacuna::stage::step | lacuna::stage::breakage;
+    static constexpr bool needs_energy = true;
+
+    /// \param s has to outlive this
+    probe_watch(specimen const& s, options const& o) : specimen_(s), ending_(o), damage_(s) {
+        result_.load_MPa = o.load_MPa;
+    }
+
+    ending const& rule() const { return ending_; }
+    probe const& result() const { return result_; }
+
+    /// Runs until an answer is certain, with further observers beside. \throws interruption
+    template <class Simulation, class... Observers>
+    probe const& follow(question q, Simulation& sim, long long steps, Observers&... others) {
+        sought_ = q;
+        result_.ended.clear();
+        try {
+            if (!is_answered()) sim.run(steps, *this, others...);
+        } catch (lacuna::unstable_run const& unstable) {
+            result_.invalid = unstable.what();
+        }
+        if (result_.invalid)
+            result_.ended = "invalid";
+        else if (result_.ended.empty())
+            result_.ended = is_answered() ? name_of(q) : ending_.at_longest();
+        settle(sim.time());
+        return result_;
+    }
+
+    template <class Event, class Simulation>
+    void on_break(Event const& event, Simulation const&) {
+        crack_record const c = crack_of(specimen_, event);
+        result_.cracks.push_back({c.time, c.position[0] - specimen_.left, c.position[1], c.shear, c.fibre});
+        damage_.add(result_.cracks.back());
+        broke_ = true;
+    }
+
+    template <class Simulation>
+    lacuna::run_control on_step(Simulation const& sim) {
+        if (stop_is_requested()) throw interruption();
+        auto const& energy = sim.energy();
+        double const last_break = result_.cracks.empty() ? 0.0 : result_.cracks.back().time;
+        if (ending_.is_quiet(energy.kinetic, sim.time(), last_break))
+            result_.ended = "quiet";
+        else if (ending_.is_over(sim.time()))
+            result_.ended = ending_.at_longest();
+        else if (is_answered())
+            result_.ended = name_of(sought_);
+        bool const ends = !result_.ended.empty();
+        // With every break, whether the run halts there or not: it must not leave a trace in the result.
+        if (ends || broke_ || sim.steps() % between_looks == 0) look(sim);
+        broke_ = false;
+        bool const jumps = sim.steps() > settled &&
+                           std::fabs(energy.kinetic - kinetic_) > largest_jump * energy.largest();
+        kinetic_ = energy.kinetic;
+        if (jumps) result_.invalid = "kinetic energy jumps at " + lacuna::to_text(sim.time()) + " s";
+        return ends || result_.invalid ? lacuna::run_control::stop : lacuna::run_control::go_on;
+    }
+
+private:
+    bool is_answered() const {
+        switch (sought_) {
+        case question::first_crack: return damage_.first_crack_time.has_value();
+        case question::capacity: return damage_.first_layer() && damage_.first_layer()->half_broken_time;
+        case question::complete: return damage_.complete_time.has_value();
+        default: return false;
+        }
+    }
+
+
+    /// The damage as it stands.
+    void settle(double time) {
+        result_.end_time = time;
+        result_.first_crack_time = damage_.first_crack_time;
+        result_.complete_time = damage_.complete_time;
+        result_.broken_fraction = damage_.broken_fraction();
+        result_.cut_fraction = damage_.cut_fraction();
+        result_.layers = damage_.layers();
+        if (auto const* first = damage_.first_layer()) {
+            result_.capacity_time = first->half_broken_time;
+            result_.first_layer_fraction = first->bonds == 0 ? 0.0 : double(first->broken) / double(first->bonds);
+        }
+    }
+    template <class Simulation>
+    void look(Simulation const& sim) {
+        if constexpr (requires { sim.flow().network(); })
+            for (double const p : sim.flow().network().pressure)
+                result_.peak_pore_pressure = std::max(result_.peak_pore_pressure, p);
+        auto const& energy = sim.energy();
+        double const largest = energy.largest();
+        result_.energy_residual_fraction = largest > 0 ? energy.residual() / largest : 0.0;
+        if (std::fabs(result_.energy_residual_fraction) > largest_residual && !result_.invalid)
+            result_.invalid = "energy ledger opens by " + lacuna::to_text(result_.energy_residual_fraction) +
+                              " of its largest term at " + lacuna::to_text(sim.time()) + " s";
+    }
+
+    specimen const& specimen_;
+    ending ending_;
+    damage_count damage_;
+    question sought_ = question::end;
+    probe result_;
+    double kinetic_ = 0;
+    bool broke_ = false;
+};
+
+} // namespace cartilage

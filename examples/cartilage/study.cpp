@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "study.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <system_error>
+#include <utility>
+
+#include <lacuna/observe/canvas_file.hpp>
+#include <lacuna/observe/progress.hpp>
+
+#include "cache.hpp"
+#include "jobs.hpp"
+#include "output.hpp"
+#include "pool.hpp"
+#include "simulate.hpp"
+#include "snapshots.hpp"
+#include "study_json.hpp"
+#include "study_report.hpp"
+
+namespace cartilage {
+
+namespace {
+
+constexpr char const* result_name = "study.json";
+
+/// \throws usage_error
+study_result read_study(std::string const& directory, char const* what) {
+    std::string const path = directory + "/" + result_name;
+    std::ifstream in(path, std::ios::binary);
+    std::string const text{std::istreambuf_iterator<char>(in), {}};
+    if (!in) throw usage_error(std::string(what) + directory + ": has no " + result_name + " that can be read");
+    try {
+        return study_from(text);
+    } catch (std::runtime_error const& bad) {
+        throw usage_error(path + ": is not a study: " + bad.what());
+    }
+}
+
+/// What two studies have to have in common to be parts of one; none: they have.
+std::optional<std::string> difference(study_result const& a, study_result const& b) {
+    if (a.choices != b.choices) return "choices";
+    if (a.lowest_MPa != b.lowest_MPa || a.highest_MPa != b.highest_MPa) return "range of loads";
+    if (a.resolution != b.resolution) return "resolution";
+    if (a.dry != b.dry) return "fluid";
+    if (a.length_um != b.length_um || a.height_um != b.height_um) return "size of the specimens";
+    return std::nullopt;
+}
+
+/// Results of another study are not replaced by accident; of the same one they come out the same anyway.
+/// \throws usage_error
+void refuse_other_study(std::string const& directory, study_result const& wanted) {
+    std::ifstream in(directory + "/" + result_name);
+    if (!in) return;
+    auto const other = difference(read_study(directory, "--out "), wanted);
+    if (other) throw usage_error("--out " + directory + ": holds another study (its " + *other +
+                                 (other->back() == 's' ? " differ" : " differs") + "); --force replaces it");
+}
+
+study_result frame_of(study_options const& o) {
+    study_result s;
+    s.lowest_MPa = o.loads.lowest_MPa;
+    s.highest_MPa = o.loads.highest_MPa;
+    s.resolution = o.loads.resolution;
+    s.choices = text_of(o.model.open, true);
+    s.code = code_version();
+    s.dry = o.model.dry;
+    s.length_um = o.model.length_um;
+    s.height_um = o.model.height_um;
+    return s;
+}
+
+/// Whether an independent piece of work belongs to the part of the study that is asked for.
+bool is_own(study_options const& o, std::size_t piece) { return int(piece % std::size_t(o.shards)) == o.shard - 1; }
+
+std::vector<paper_picture> pictures_of(study_options const& o) {
+    std::vector<paper_picture> own;
+    if (!o.pictures) return own;
+    std::size_t piece = o.zones.size() * std::size_t(o.seeds);
+    for (paper_picture const& p : paper_pictures())
+        if (std::count(o.zones.begin(), o.zones.end(), p.zone) != 0 && is_own(o, piece++)) own.push_back(p);
+    return own;
+}
+
+std::vector<snapshot> take_snapshots(study_options const& o) {
+    result_cache const cache(o.cache);
+    auto const pictures = pictures_of(o);
+    std::vector<snapshot> shots(pictures.size());
+    share_out(pictures.size(), o.jobs, [&](std::size_t k) {
+        options model = o.model;
+        model.zone = pictures[k].zone;
+        model.seed = 1;
+        std::string const name = "figure-" + pictures[k].figure;
+        std::string const key = key_of(model) + "picture " + lacuna::to_text(pictures[k].load_MPa);
+        try {
+            if (auto const kept = cache.find(name, key)) {
+                shots[k] = snapshot_from(*kept);
+                return;
+            }
+        } catch (std::exception const&) {
+            // Damaged: as if it were not there.
+        }
+        shots[k] = take_snapshot(pictures[k], model);
+        cache.keep(name, key, json_of(shots[k]));
+    });
+    return shots;
+}
+
+std::string median_of(std::vector<packing_result> const& packings, lacuna::cartilage_zone zone,
+                      std::optional<double> thresholds::*load) {
+    std::vector<std::optional<double>> loads;
+    for (auto const& p : packings)
+        if (p.zone == zone) loads.push_back(p.found.*load);
+    return median_text(std::move(loads));
+}
+
+void print_study(std::FILE* out, study_result const& study) {
+    std::fprintf(out, "  %-8s %9s %12s %9s %9s %8s\n", "zone", "packings", "first crack", "capacity", "complete",
+                 "invalid");
+    using lacuna::cartilage_zone;
+    for (auto zone : {cartilage_zone::surface, cartilage_zone::middle, cartilage_zone::deep, cartilage_zone::whole}) {
+        std::size_t packings = 0, runs = 0, invalid = 0;
+        for (auto const& p : study.packings) {
+            if (p.zone != zone) continue;
+            ++packings;
+            for (auto const& q : p.probes) ++runs, invalid += q.invalid.has_value();
+        }
+        if (packings == 0) continue;
+        std::fprintf(out, "  %-8s %9zu %12s %9s %9s %zu of %zu runs\n", std::string(lacuna::to_string(zone)).c_str(),
+                     packings, median_of(study.packings, zone, &thresholds::first_crack_MPa).c_str(),
+                     median_of(study.packings, zone, &thresholds::capacity_MPa).c_str(),
+                     median_of(study.packings, zone, &thresholds::complete_MPa).c_str(), invalid, runs);
+    }
+    std::fprintf(out, "  medians, MPa; -: most packings above the highest load, or not to be had\n");
+}
+
+/// Writes the results of a study; the report only of a whole one.
+void write_study(study_options const& o, output_directory& out, study_result const& study, bool whole) {
+    out.keep();
+    if (!o.quiet) print_study(stdout, study);
+    if (whole) write_report(o.out, study);
+    lacuna::whole_file file(out.file(result_name));
+    file.write(text_of(study));
+    file.commit();
+    if (o.quiet) return;
+    if (whole) std::printf("%s\n", out.file("report.html").c_str());
+    std::printf("%s\n", out.file(result_name).c_str());
+}
+
+int merge(study_options const& o) {
+    std::vector<study_result> parts;
+    for (std::string const& directory : o.merge) parts.push_back(read_study(directory, "merge "));
+    study_result whole = parts.front();
+    for (std::size_t p = 1; p < parts.size(); ++p) {
+        auto other = difference(whole, parts[p]);
+        if (!other && whole.code != parts[p].code) other = "code";
+        if (other)
+            throw usage_error("merge " + o.merge[p] + ": is no part of the study in " + o.merge[0] + ": its " + *other +
+                              (other->back() == 's' ? " differ" : " differs"));
+        for (auto& r : parts[p].packings) whole.packings.push_back(std::move(r));
+        for (auto& s : parts[p].snapshots) whole.snapshots.push_back(std::move(s));
+    }
+    auto const place = [](packing_result const& r) { return std::pair(r.zone, r.seed); };
+    std::stable_sort(whole.packings.begin(), whole.packings.end(),
+                     [&](auto const& a, auto const& b) { return place(a) < place(b); });
+    for (std::size_t k = 1; k < whole.packings.size(); ++k)
+        if (place(whole.packings[k]) == place(whole.packings[k - 1]))
+            throw usage_error("merge: zone " + std::string(lacuna::to_string(whole.packings[k].zone)) + ", seed " +
+                              std::to_string(whole.packings[k].seed) + " is in two of the parts");
+    std::stable_sort(whole.snapshots.begin(), whole.snapshots.end(),
+                     [](auto const& a, auto const& b) { return a.figure < b.figure; });
+    output_directory out(o.out, o.force);
+    if (!o.force) refuse_other_study(o.out, whole);
+    write_study(o, out, whole, true);
+    return 0;
+}
+
+} // namespace
+
+std::vector<packing_request> requests_of(study_options const& o) {
+    std::vector<packing_request> requests;
+    std::size_t piece = 0;
+    for (auto zone : o.zones)
+        for (std::uint64_t seed = 1; seed <= o.seeds; ++seed)
+            if (is_own(o, piece++)) {
+                packing_request r{o.model, o.loads};
+                r.model.zone = zone;
+                r.model.seed = seed;
+                requests.push_back(std::move(r));
+            }
+    return requests;
+}
+
+int study(study_options const& o) {
+    if (!o.merge.empty()) return merge(o);
+    study_result result = frame_of(o);
+    output_directory out(o.out, o.force);
+    if (!o.force) refuse_other_study(o.out, result);
+    pool_report report;
+    pool_options how;
+    how.jobs = o.jobs;
+    how.cache = o.cache;
+    how.progress = o.quiet ? nullptr : stderr;
+    how.report = &report;
+    result.packings = run_packings(requests_of(o), how);
+    result.snapshots = take_snapshots(o);
+    write_study(o, out, result, o.shards == 1);
+    if (!o.quiet)
+        std::printf("%zu runs; kept from before: %zu packings, %zu runs\n", report.runs, report.packings_kept,
+                    report.probes_kept);
+    return 0;
+}
+
+} // namespace cartilage

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "words.hpp"
+
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+
+#include <CLI/CLI.hpp>
+
+#include <lacuna/core/error.hpp>
+
+namespace cartilage {
+
+namespace {
+
+std::string contents_of(std::string const& path) {
+    std::ifstream file(path, std::ios::binary);
+    std::string text{std::istreambuf_iterator<char>(file), {}};
+    if (!file) refuse("--choices", path, "a file that can be read");
+    return text;
+}
+
+/// The choices of preset, file and single settings, in this order.
+choices understand_choices(model_words const& w) {
+    choices c;
+    try {
+        c = preset_choices(w.preset);
+    } catch (std::invalid_argument const&) {
+        std::string names;
+        for (auto name : preset_names()) names += (names.empty() ? "" : " or ") + std::string(name);
+        refuse("--preset", w.preset, names.c_str());
+    }
+    if (!w.file.empty()) set_choices(c, contents_of(w.file), w.file);
+    for (std::string const& one : w.set) {
+        try {
+            set_choice(c, one);
+        } catch (std::invalid_argument const& bad) {
+            throw usage_error(std::string("--set: ") + bad.what());
+        }
+    }
+    if (!w.duration.empty()) c.duration = positive_number("--duration", w.duration, "a number of nanoseconds > 0");
+    validate(c);
+    return c;
+}
+
+} // namespace
+
+void refuse(char const* option, std::string const& word, char const* rule) {
+    throw usage_error(std::string(option) + " " + (word.empty() ? "''" : word) + ": must be " + rule);
+}
+
+double positive_number(char const* option, std::string const& word, char const* rule) {
+    char* end = nullptr;
+    double const value = std::strtod(word.c_str(), &end);
+    if (word.empty() || *end != '\0' || !(value > 0) || !std::isfinite(value)) refuse(option, word, rule);
+    return value;
+}
+
+void add_model_options(CLI::App& app, model_words& w) {
+    app.add_option("--length", w.length, "of the specimen, horizontal (as the choice domain says: 120)")
+        ->type_name("UM");
+    app.add_option("--height", w.height, "of the specimen (as the choice domain says: 300)")->type_name("UM");
+    app.add_option("--preset", w.preset, "literal: as the paper says; lattice: equal radii, no chance (literal)")
+        ->type_name("NAME");
+    app.add_option("--choices", w.file, "file of choices that differ from the preset, a line 'name = value' each")
+        ->type_name("FILE");
+    app.add_option("--set", w.set, "one choice that differs; may be repeated")
+        ->type_name("NAME=VALUE")
+        ->take_all()
+        ->allow_extra_args(false);
+}
+
+void add_run_options(CLI::App& app, model_words& w) {
+    app.add_option("--duration", w.duration, "simulated time (until quiet, 40 at most)")->type_name("NS");
+    app.add_flag("--dry", w.dry, "without pore fluid");
+}
+
+options understand_model(model_words const& w) {
+    options o;
+    o.preset = w.preset;
+    o.open = understand_choices(w);
+    if (o.open.duration > 0) o.duration_ns = o.open.duration;
+    bool const tall = o.open.domain == domain_rule::tall;
+    auto const extent = [](char const* option, std::string const& word, double plain) {
+        return word.empty() ? plain : positive_number(option, word, "a number of micrometres > 0");
+    };
+    o.length_um = extent("--length", w.length, tall ? 120 : 300);
+    o.height_um = extent("--height", w.height, tall ? 300 : 120);
+    o.dry = w.dry;
+    return o;
+}
+
+void validate_specimen(options const& o) {
+    try {
+        o.specimen().validate();
+    } catch (std::invalid_argument const& bad) {
+        std::string const what_m = std::string(bad.what()) + " m";
+        if (what_m.rfind("specimen.height", 0) == 0)
+            throw usage_error("--height " + lacuna::to_text(o.height_um) + ": " + what_m);
+        if (what_m.rfind("specimen.length", 0) == 0)
+            throw usage_error("--length " + lacuna::to_text(o.length_um) + ": " + what_m);
+        throw usage_error(bad.what());
+    }
+}
+
+} // namespace cartilage

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <charconv>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include "options.hpp"
+
+namespace CLI {
+class App;
+}
+
+/// \file
+/// From words on the command line to numbers and models: what all commands have in common.
+
+namespace cartilage {
+
+/// The words that decide on a model, as written.
+struct model_words {
+    std::string preset = "literal", file, length, height, duration;
+    std::vector<std::string> set;
+    bool dry = false;
+};
+
+/// --preset, --choices, --set, --length and --height.
+void add_model_options(CLI::App& app, model_words& w);
+/// --dry and --duration, of commands that run a model.
+void add_run_options(CLI::App& app, model_words& w);
+
+/// The model that was asked for; zone, seed and load are left as they are. \throws usage_error
+options understand_model(model_words const& w);
+/// \throws usage_error when the specimen cannot be built, naming the option that is to blame
+void validate_specimen(options const& o);
+
+/// \throws usage_error "option word: must be rule"
+[[noreturn]] void refuse(char const* option, std::string const& word, char const* rule);
+/// \throws usage_error
+double positive_number(char const* option, std::string const& word, char const* rule);
+/// \throws usage_error
+template <class Integer>
+Integer whole_number(char const* option, std::string const& word, Integer least, Integer most, char const* rule) {
+    Integer value{};
+    auto const [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    if (error != std::errc() || end != word.data() + word.size() || value < least || value > most)
+        refuse(option, word, rule);
+    return value;
+}
+
+} // namespace cartilage
