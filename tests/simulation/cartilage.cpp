@@ -9,7 +9,6 @@
 #include <lacuna/pores/triangulation.hpp>
 #include <lacuna/simulation.hpp>
 
-#include "../../examples/cartilage/cartilage_model.hpp"
 #include "simulation/specimens.hpp"
 
 using namespace lacuna;
@@ -39,8 +38,8 @@ struct energy_kept {
 
 /// The paper's model with water in the pores.
 outcome coupled_run(cartilage_specimen<double> const& s, double load_MPa, long long steps) {
-    simulation<cartilage::wet_model> sim(s.discs, cartilage::model_parameters<cartilage::wet_model>(s, 0.01));
-    cartilage::set_up(sim, s, load_MPa * 1e6);
+    simulation<specimens::wet> sim(s.discs, specimens::parameters(s));
+    cartilage::set_up(sim, s, load_MPa * 1e6, {});
     crack_record<break_event<2>> cracks;
     sim.run(steps, cracks, energy_kept{});
     double highest = 0;
@@ -117,12 +116,12 @@ TEST_CASE("the same with water that flows, and its terms among each other") {
 }
 
 TEST_CASE("a pore that is turned over stops the run") {
-    auto p = cartilage::model_parameters<cartilage::wet_model>(specimens::small(), 0.01);
+    auto p = specimens::parameters(specimens::small());
     p.walls.clear();
     p.time_step = 1e-9;
     packing<double, 2> discs;
     for (vec<double, 2> const x : {vec<double, 2>{0, 0}, {3e-6, 0}, {1.5e-6, 2e-6}}) discs.add(x, 0.5e-6, 1);
-    simulation<cartilage::wet_model> sim(discs, p);
+    simulation<specimens::wet> sim(discs, p);
     sim.fill_pores([](points_view<double, 2> points, double const* radii) {
         return make_pore_network(regular_triangulation(points, radii), points, radii);
     });
@@ -153,8 +152,8 @@ TEST_CASE("a symmetric packing under a symmetric load stays symmetric") {
         REQUIRE(norm(s.discs.position[nearest] - mirrored) < 1e-9 * s.discs.radius[i]);
         partner[i] = nearest;
     }
-    simulation<cartilage::wet_model> sim(s.discs, cartilage::model_parameters<cartilage::wet_model>(s, 0.01));
-    cartilage::set_up(sim, s, 100e6);
+    simulation<specimens::wet> sim(s.discs, specimens::parameters(s));
+    cartilage::set_up(sim, s, 100e6, {});
     sim.run(500);
     double moved = 0, apart = 0;
     for (std::size_t i = 0; i < sim.size(); ++i) {
