@@ -149,12 +149,12 @@ std::vector<choice_field> make_fields() {
                                      {1e-3, 1e9, "a number from 0.001 to 1e9, or 0 (until quiet)", scale::logarithmic,
                                       {5, 20}, {1, 20}, 0},
                                      "For how long the load acts is not said."));
-    f.push_back(number<&c::longest>("longest", "ns", {0.1, 1e4, "a number from 0.1 to 10000", scale::logarithmic, {}, {5, 80}},
+    f.push_back(number<&c::longest>("longest", "ns", {0.1, 1e4, "a number from 0.1 to 10000", scale::logarithmic, {20, 80}, {5, 80}},
                                     "Until when a specimen may take to become quiet."));
     f.push_back(number<&c::quiet_fraction>("quiet_fraction", "of the largest kinetic energy",
-                                           {1e-8, 1, "a number from 1e-8 to 1", scale::logarithmic, {}, {1e-5, 0.1}},
+                                           {1e-8, 1, "a number from 1e-8 to 1", scale::logarithmic, {1e-4, 0.01}, {1e-5, 0.1}},
                                            "What counts as equilibrium is not said."));
-    f.push_back(number<&c::quiet_time>("quiet_time", "ns", {0, 1e4, "a number from 0 to 10000", scale::linear, {}, {0, 40}},
+    f.push_back(number<&c::quiet_time>("quiet_time", "ns", {0, 1e4, "a number from 0 to 10000", scale::linear, {5, 40}, {0, 40}},
                                        "For how long no bond must break in equilibrium is not said."));
     // The fluid
     f.push_back(of_fluid(number<&c::conductivity>(
