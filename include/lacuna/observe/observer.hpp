@@ -61,18 +61,19 @@ constexpr void check_observer() {
         static_assert(!requires(type & o, Simulation const& s) { o.on_end(s); }, "on_end is not among the stages");
 }
 
+// A hook that cannot be called has been refused by check_observer(); a call would only make the message longer.
 template <class O, class Simulation>
 void notify_start(O& o, Simulation const& s) {
-    if constexpr (has(O::stages, stage::start)) o.on_start(s);
+    if constexpr (has(O::stages, stage::start) && requires { o.on_start(s); }) o.on_start(s);
 }
 template <class O, class Event, class Simulation>
 void notify_break(O& o, Event const& event, Simulation const& s) {
-    if constexpr (has(O::stages, stage::breakage)) o.on_break(event, s);
+    if constexpr (has(O::stages, stage::breakage) && requires { o.on_break(event, s); }) o.on_break(event, s);
 }
 /// \return whether the run may go on
 template <class O, class Simulation>
 bool notify_step(O& o, Simulation const& s) {
-    if constexpr (has(O::stages, stage::step)) {
+    if constexpr (has(O::stages, stage::step) && requires { o.on_step(s); }) {
         if constexpr (std::is_void_v<decltype(o.on_step(s))>)
             o.on_step(s);
         else
@@ -82,7 +83,7 @@ bool notify_step(O& o, Simulation const& s) {
 }
 template <class O, class Simulation>
 void notify_end(O& o, Simulation const& s) {
-    if constexpr (has(O::stages, stage::end)) o.on_end(s);
+    if constexpr (has(O::stages, stage::end) && requires { o.on_end(s); }) o.on_end(s);
 }
 
 } // namespace detail
