@@ -19,7 +19,7 @@ namespace {
 struct made_up {
     double first, capacity, complete;
     double bad_from = 1e9, bad_to = 0;
-    std::map<double, question> asked;
+    std::map<double, question> asked{};
     int calls = 0;
 
     probe operator()(double load, question q) {
