@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstddef>
+#include <ctime>
 #include <random>
 #include <string>
 
@@ -127,6 +128,7 @@ struct verdict {
 /// One timed run of a work, after a few steps to warm up, and what its checks found.
 struct timing {
     double seconds = 0;
+    double cpu_seconds = 0; ///< of all threads; less disturbed than seconds by what else runs on the machine
     long long steps = 0;
     std::size_t particles = 0, pairs = 0, bonds = 0, contacts = 0, open_throats = 0, active_throats = 0;
     long long rebuilds = 0;
@@ -201,7 +203,9 @@ public:
 
     void run(long long steps) {
         auto const start = std::chrono::steady_clock::now();
+        auto const used = std::clock();
         sim_.run(steps);
+        result_.cpu_seconds += double(std::clock() - used) / CLOCKS_PER_SEC;
         result_.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         result_.steps += steps;
     }

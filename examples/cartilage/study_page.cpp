@@ -143,8 +143,8 @@ std::string limits(study_result const& study, std::vector<table3_cell> const& ce
     lines.push_back("Loads are known to " + number_text("%.3g", 100 * study.resolution) +
                     " % at best; where more load does not break more, the load is the one that the search met.");
     lines.push_back("The smallest cell of Table 3 has " + count_text(std::size_t(fewest), "packing") + "; " +
-                    std::to_string(none) + " loads lie above " + lacuna::to_text(study.highest_MPa) + " MPa and " +
-                    std::to_string(invalid) + " are undecided, over all cells.");
+                    count_text(std::size_t(none), "load") + " above " + lacuna::to_text(study.highest_MPa) +
+                    " MPa and " + count_text(std::size_t(invalid), "undecided load") + " over all cells.");
     lines.push_back(
         "The median damage is drawn where at least half of the packings have whole runs on both sides; runs "
         "that stopped early, at high loads, are not in it.");

@@ -29,12 +29,12 @@ void chosen_flow::solver<Real, Dim>::map(lookup_type const& lookup) {
 }
 
 template <class Real, int Dim>
-void chosen_flow::solver<Real, Dim>::refresh_apertures(records const& place, Real const* pair_forces, int threads) {
+void chosen_flow::solver<Real, Dim>::refresh_apertures(bodies const& place, Real const* pair_forces, int threads) {
     std::visit([&](auto& one) { one.refresh_apertures(place, pair_forces, threads); }, chosen_);
 }
 
 template <class Real, int Dim>
-void chosen_flow::solver<Real, Dim>::take_step(bool with_ledger, records const& place, Real const* pair_forces, Real dt,
+void chosen_flow::solver<Real, Dim>::take_step(bool with_ledger, bodies const& place, Real const* pair_forces, Real dt,
                                                int threads) {
     std::visit(
         [&](auto& one) {

@@ -54,6 +54,7 @@ struct chosen_flow {
         static_assert(Dim == 2);
         using points_type = lacuna::points_view<Real, 2>;
         using records = lacuna::record_column<Real>;
+        using bodies = lacuna::body_column<Real>;
         using explicit_type = lacuna::explicit_flow_solver<Real, 2, chosen_aperture>;
         using implicit_type = lacuna::implicit_flow_solver<Real, 2, chosen_aperture>;
 
@@ -70,9 +71,9 @@ struct chosen_flow {
         void map_throats(Lookup const& lookup) {
             map(lookup_type(lookup));
         }
-        void refresh_apertures(records const& place, Real const* pair_forces, int threads = 1);
+        void refresh_apertures(bodies const& place, Real const* pair_forces, int threads = 1);
         template <bool WithLedger>
-        void step(records const& place, Real const* pair_forces, Real dt, int threads = 1) {
+        void step(bodies const& place, Real const* pair_forces, Real dt, int threads = 1) {
             take_step(WithLedger, place, pair_forces, dt, threads);
         }
         /// One step of flow alone.
@@ -95,7 +96,7 @@ struct chosen_flow {
 
     private:
         void map(lookup_type const& lookup);
-        void take_step(bool with_ledger, records const& place, Real const* pair_forces, Real dt, int threads);
+        void take_step(bool with_ledger, bodies const& place, Real const* pair_forces, Real dt, int threads);
 
         parameters parameters_;
         std::variant<typename lacuna::no_flow::solver<Real, 2>, explicit_type, implicit_type> chosen_;

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <sstream>
 
 namespace lacuna_run {
@@ -127,31 +126,6 @@ value table::operator[](char const* key) const {
     value const found{toml_->get(key), path(key)};
     if (found.node == nullptr) found.refuse("given");
     return found;
-}
-
-std::string nearest_word(std::string_view word, std::vector<std::string> const& known) {
-    std::string best;
-    std::size_t least = std::max<std::size_t>(2, word.size() / 3) + 1;
-    if (word.size() > 60) return best;
-    for (std::string const& candidate : known) {
-        // Levenshtein's distance, row by row.
-        std::vector<std::size_t> row(candidate.size() + 1);
-        std::iota(row.begin(), row.end(), std::size_t(0));
-        for (std::size_t i = 1; i <= word.size(); ++i) {
-            std::size_t diagonal = row[0];
-            row[0] = i;
-            for (std::size_t j = 1; j <= candidate.size(); ++j) {
-                std::size_t const changed = diagonal + (word[i - 1] != candidate[j - 1]);
-                diagonal = row[j];
-                row[j] = std::min({row[j] + 1, row[j - 1] + 1, changed});
-            }
-        }
-        if (row.back() < least) {
-            least = row.back();
-            best = candidate;
-        }
-    }
-    return best;
 }
 
 } // namespace lacuna_run

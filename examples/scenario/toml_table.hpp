@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include <lacuna/core/text.hpp>
+
 #include "scenario.hpp"
 
 namespace lacuna_run {
@@ -85,7 +87,6 @@ private:
     std::string path_;
 };
 
-/// The known word that is nearest to another, or an empty one when none is near.
-std::string nearest_word(std::string_view word, std::vector<std::string> const& known);
+using lacuna::nearest_word;
 
 } // namespace lacuna_run

@@ -37,11 +37,13 @@ struct default_model {
 template <class M>
 inline constexpr bool has_fluid = !std::is_same_v<typename M::flow, no_flow>;
 
+/// Whether models can have this dimension.
+template <int Dim>
+inline constexpr bool plane_or_space = Dim == 2 || Dim == 3;
+
 /// A complete set of parts, each of the kind its slot asks for.
 template <class M>
-concept model = requires {
-    requires M::dim == 2 || M::dim == 3;
-    requires std::floating_point<typename M::real>;
+concept model = plane_or_space<M::dim> && std::floating_point<typename M::real> && requires {
     requires contact_law<typename M::contact_law, M::dim>;
     requires bond_law<typename M::bond_law, M::dim>;
     requires damping_policy<typename M::damping>;

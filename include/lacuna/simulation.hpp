@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -17,6 +18,7 @@
 #include <lacuna/loads/load_set.hpp>
 #include <lacuna/loads/prescribed_motion.hpp>
 #include <lacuna/loads/rigid_plates.hpp>
+#include <lacuna/loads/wall_drive.hpp>
 #include <lacuna/model.hpp>
 #include <lacuna/observe/observer.hpp>
 #include <lacuna/particles/spatial_order.hpp>
@@ -73,6 +75,7 @@ public:
         interactions_ = interactions_type(store_, packing.bonds, p.materials, p.thickness, p.interactions, p.damping,
                                           p.bonds);
         walls_ = wall_contacts<contact_law_type, damping_type, real, dim>(p.walls, contact_materials, p.thickness);
+        wall_drive_ = wall_drive<dim>(p.walls.size(), p.thickness);
         smallest_radius_ = store_.size() ? *std::min_element(store_.radii().begin(), store_.radii().end()) : real(1);
         update_walls();
         reports_.resize(std::size_t(interactions_.chunks()));
@@ -128,6 +131,17 @@ public:
     }
     /// \}
 
+    /// \name Acting on walls, by their number in simulation_parameters::walls; see walls() for their places and forces
+    /// \{
+    /// Moves a wall: from the velocity it has to v, linearly within ramp_time from now on; 0: at once. m/s, s. The ledger
+    /// books its work as that of prescribed motion.
+    void move_wall(std::size_t w, point const& v, double ramp_time = 0) {
+        wall_drive_.move(walls_, w, v, ramp_time, now().time);
+    }
+    /// Lets a servo hold the stress on a wall from now on, until move_wall().
+    void hold_wall(std::size_t w, wall_servo<dim> const& servo) { wall_drive_.hold(w, servo); }
+    /// \}
+
     /// Fills the pores with fluid (models with flow; before the first step).
     /// \param make callable (points_view positions, Real const* radii) -> pore_network, in the simulation's own
     ///        numbering of particles; see triangulate_body() and make_pore_network(). With remeshing a copy is kept,
@@ -137,7 +151,7 @@ public:
     void fill_pores(Make const& make)
         requires(has_fluid<Model>)
     {
-        fluid_.fill(store_, interactions_, parameters_.flow, parameters_.remeshing, parameters_.thickness, make);
+        fluid_.fill(store_, interactions_, parameters_.flow, parameters_.remeshing, dim == 2 ? parameters_.thickness : 1.0, make);
         time_step_.reset();
     }
 
@@ -153,14 +167,18 @@ public:
     template <observer... Observers>
     long long run(long long steps, Observers&&... observers) {
         (detail::check_observer<simulation, event_type, Observers>(), ...);
-        constexpr bool energy = (detail::needs_energy<Observers> || ...);
+        constexpr bool always = (detail::needs_energy<Observers> || ...);
+        constexpr bool sometimes = !always && (detail::samples_energy<Observers> || ...);
         announce(steps);
         if (step_ == 0) time_step_.reset();
         settle_time_step();
         (detail::notify_start(observers, *this), ...);
         long long taken = 0;
         for (bool go_on = true; go_on && taken < steps; ++taken) {
-            take_step<energy>();
+            if (sometimes && (detail::wants_energy(observers, step_) || ...))
+                take_step<always || sometimes>();
+            else
+                take_step<always>();
             for (auto const& event : events_) (detail::notify_break(observers, event, *this), ...);
             (void)std::initializer_list<int>{((go_on = detail::notify_step(observers, *this) && go_on), 0)...};
         }
@@ -176,7 +194,7 @@ public:
     double time() const { return clock_.time + double(step_ - clock_.step) * time_step(); }
     /// Failures of the last step.
     std::span<event_type const> events() const noexcept { return events_; }
-    /// Kept while an observer with needs_energy is there, or step_with_energy() is used.
+    /// Kept while an observer asks for it (see observe/observer.hpp), or step_with_energy() is used.
     energy_ledger const& energy() const noexcept { return ledger_.ledger(); }
     /// As step(), and keeps the energy ledger.
     void step_with_energy() { take_step<true>(); }
@@ -227,7 +245,9 @@ public:
         ar(store_, loads_);
         interactions_archive::apply(ar, interactions_, store_);
         walls_.archive(ar, store_);
-        ar(fluid_, events_, kicked_, motions_, plates_, ledger_, growth_, time_step_, moved_, step_, planned_steps_, planned_end_);
+        ar(wall_drive_);
+        fluid_.archive(ar, store_);
+        ar(events_, kicked_, motions_, plates_, ledger_, growth_, time_step_, moved_, step_, planned_steps_, planned_end_);
         ar(clock_.time, clock_.step, clock_.last, streams_);
         require_state(motions_.fits(store_.size()), "a motion prescribed to no particle");
         require_state(plates_.fit(store_.size()), "a rigid plate of no particle");
@@ -255,7 +275,7 @@ private:
     void take_step() {
         settle_time_step();
         bool const changed = interactions_.update(store_, moved_);
-        if (changed) update_walls();
+        if (changed || walls_.outdated(moved_)) update_walls();
         // Slips are those of the motion that led here, with the step of then.
         auto const before = real(step_ > 0 ? clock_.last : *time_step_);
         if (changed && parameters_.follow_critical_step) follow_critical_step();
@@ -266,8 +286,10 @@ private:
         for (auto& r : reports_) r = {};
 
         int const chunks = interactions_.chunks();
-        bool const further_forces = filled() || !walls_.empty() || !plates_.empty() || carries_moment<bond_law_type>;
+        bool const further_forces = filled() || !walls_.empty() || !plates_.empty() || carries_moment<bond_law_type> ||
+                                    carries_moment<contact_law_type>;
         bool const on_time = parameters_.velocities_on_time && (step_ == 0 || !kicked_.empty());
+        bool remeshed = false;
         bool at_once = !further_forces && kicked_.empty() && !on_time;
         // Whoever gives velocities again and again does not want the forces laid out anew each time.
         if (!kicked_.empty() && step_ > 0) streams_ = false;
@@ -292,7 +314,8 @@ private:
             std::for_each(kicked_.rbegin(), kicked_.rend(), [&](kick& k) { exchange(k); });
             for_each_chunk(chunks, parameters_.threads,
                            [&](int c) { interactions_.template evaluate<WithEnergy>(store_, c, before); });
-            if (further_forces) add_further_forces<WithEnergy>(before, changed);
+            if (further_forces) remeshed = add_further_forces<WithEnergy>(before, changed);
+            drive_walls(double(dt));
             for (auto& k : kicked_) {
                 exchange(k);
                 if constexpr (WithEnergy) ledger_.book_work(work_of_kick(k, before));
@@ -311,15 +334,16 @@ private:
             auto pairs = interactions_.energy();
             pairs += wall_energy_;
             ledger_.template keep<flow_type>(pairs, interactions_.fracture_energy(), reports_, double(before), double(dt),
-                                             fluid_.get());
+                                             fluid_.get(), wall_power_);
         } else {
             ledger_.close();
         }
         check_energy(store_, growth_, WithEnergy ? &ledger_.ledger() : nullptr, moved_, smallest_radius_, now());
-        if constexpr (has_fluid<Model> && dim == 2)
+        if constexpr (has_fluid<Model>)
             if (parameters_.remeshing.rule == remesh_rule::never && (changed || step_ % 64 == 63))
                 check_pores(store_, fluid_.get()->network(), now());
         ++step_;
+        if (remeshed || step_ % 64 == 0) mind_flow_limit();
     }
 
     /// What a particle's velocities were before they were given new ones between two steps.
@@ -384,15 +408,18 @@ private:
         });
     }
 
+    /// \return whether the pores were made anew
     template <bool WithEnergy>
-    void add_further_forces(real dt, bool pairs_changed) {
+    bool add_further_forces(real dt, bool pairs_changed) {
+        bool remeshed = false;
         if (pairs_changed) {
             fluid_.map_throats(interactions_);
             skip_idle_throats();
         }
         if (filled()) {
             fluid_.template step<WithEnergy>(store_, interactions_, dt, step_, parameters_.threads, extra_);
-            if (fluid_.remesh(store_, interactions_, step_)) skip_idle_throats();
+            remeshed = fluid_.remesh(store_, interactions_, step_);
+            if (remeshed) skip_idle_throats();
         } else
             std::fill(extra_.data(), extra_.data() + 4 * extra_.size(), real(0));
         interactions_.add_moments(store_, extra_);
@@ -405,6 +432,17 @@ private:
         if (!plates_.empty())
             plates_.share(store_, [&](std::size_t k) { return total_force(store_, interactions_, extra_, k).force; },
                           extra_);
+        return remeshed;
+    }
+
+    void drive_walls(double dt) {
+        if (walls_.empty()) return;
+        wall_drive_.advance(walls_, time(), dt);
+        wall_power_ = walls_.advance(dt);
+        if (double const way = walls_.fastest() * dt; way > 0.1 * double(smallest_radius_))
+            throw_unstable(store_, now(), -1,
+                           "a wall moved " + to_text(way / double(smallest_radius_)) + " of the smallest radius in one step (limit 0.1)",
+                           "its velocity is too high");
     }
 
     /// Throats are left out for the run that was announced; ones that open within it are taken up again here.
@@ -423,6 +461,23 @@ private:
         if (!std::isfinite(found) || (found >= *time_step_ && found <= 1.01 * *time_step_)) return;
         clock_ = {time(), step_, clock_.last};
         time_step_ = found;
+    }
+
+    /// Where throats have opened, or pores were made anew, the step may be too long for an explicit flow: one of our
+    /// choice is chosen again, one that was asked for ends the run.
+    void mind_flow_limit() {
+        if constexpr (has_fluid<Model>) {
+            double const limit = flow_limit(*fluid_.get());
+            if (*time_step_ <= limit || parameters_.allow_unstable_step) return;
+            if (parameters_.time_step > 0)
+                throw_unstable(store_, now(), -1,
+                               "the flow between pores allows a time step of at most " + to_text(limit) +
+                                   " s by now, less than " + to_text(*time_step_) + " s",
+                               "throats have opened or pores become small; flow.substeps = 0 takes as many flow steps as "
+                               "are safe, implicit flow has no limit");
+            clock_ = {time(), step_, clock_.last};
+            time_step_ = parameters_.safety * limits().critical();
+        }
     }
 
     void collect_events() {
@@ -472,6 +527,8 @@ private:
     wall_contacts<contact_law_type, damping_type, real, dim> walls_;
     load_set<real, dim> loads_;
     mutable fluid_coupling<Model> fluid_; // mutable: which throats are left out is settled with the time step
+    wall_drive<dim> wall_drive_;
+    std::array<double, 2> wall_power_{};
     pair_energy wall_energy_;
     record_column<real> extra_;
     std::vector<motion_report<real>> reports_;

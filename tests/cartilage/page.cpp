@@ -67,6 +67,8 @@ TEST_CASE("a report holds its table, its figures and what does not count, and co
     study.snapshots.clear();
     cartilage::write_report(b.path, study);
     CHECK(count(cartilage::file_bytes(b.file("report.html")), "<img ") == 7);
+    CHECK_FALSE(std::filesystem::exists(b.file("figure-10.png")));
+    CHECK(std::filesystem::exists(b.file("damage-surface.png")));
 }
 
 TEST_CASE("a study that makes no sense is refused by name") {

@@ -19,17 +19,20 @@
 namespace bodies {
 
 using point = lacuna::vec<double, 2>;
+using space_point = lacuna::vec<double, 3>;
 
 inline double uniform(std::mt19937_64& engine) { return double(engine() >> 11) * 0x1p-53; }
 
-/// Discs of thickness 1, and what makes a flow solver of their pores.
-struct body {
-    std::vector<point> x;
+/// Discs of thickness 1, or spheres, and what makes a flow solver of their pores.
+template <int Dim>
+struct assembly {
+    using place_type = lacuna::vec<double, Dim>;
+    std::vector<place_type> x;
     std::vector<double> r;
 
-    lacuna::points_view<double, 2> points() const { return lacuna::view_points(x); }
+    lacuna::points_view<double, Dim> points() const { return lacuna::view_points(x); }
     template <class Boundary = lacuna::all_sealed>
-    lacuna::pore_network<double, 2> network(Boundary const& boundary = {}) const {
+    lacuna::pore_network<double, Dim> network(Boundary const& boundary = {}) const {
         return lacuna::make_pore_network(lacuna::triangulate_body(points(), r.data()), points(), r.data(), boundary);
     }
     /// K_f = 1000, k = 1, nothing skipped, apertures of 0.1 at zero force.
@@ -46,31 +49,57 @@ struct body {
     Solver flow(typename Solver::parameters const& p, Boundary const& boundary = {}) const {
         return {p, network(boundary), 1.0, points(), r.data()};
     }
-    /// The records of a particle store: {x, y, arc, radius}.
+    /// The records of a particle store: {x, y, arc, radius}, in space {x, y, z, radius}.
     template <class Real = double>
-    lacuna::record_column<Real> place() const {
-        lacuna::record_column<Real> column;
+    lacuna::body_column<Real> place() const {
+        lacuna::body_column<Real> column;
         column.resize(x.size() + 2);
         for (std::size_t i = 0; i < x.size() + 2; ++i) {
             bool const ghost = i >= x.size();
-            column.at(i, 0) = ghost ? Real(i) : Real(x[i][0]);
-            column.at(i, 1) = ghost ? Real(0) : Real(x[i][1]);
+            for (int axis = 0; axis < Dim; ++axis)
+                column.at(i, axis) = !ghost ? Real(x[i][axis]) : axis == 0 ? Real(i) : Real(0);
             column.at(i, 3) = ghost ? Real(0.25) : Real(r[i]);
         }
         return column;
     }
-    /// Forces that the last step left, a point per particle.
+    /// Forces that the last step left, one per particle.
     template <class Solver>
-    std::vector<point> tractions(Solver const& flow, int threads = 1) const {
+    std::vector<place_type> tractions(Solver const& flow, int threads = 1) const {
+        constexpr std::size_t records = Dim == 2 ? 1 : 2;
         lacuna::record_column<double> extra;
-        extra.resize(x.size());
+        extra.resize(records * x.size());
         flow.write_tractions(extra, threads);
-        std::vector<point> force;
-        for (std::size_t i = 0; i < x.size(); ++i) force.push_back({extra.at(i, 0), extra.at(i, 1)});
+        std::vector<place_type> force(x.size());
+        for (std::size_t i = 0; i < x.size(); ++i)
+            for (int axis = 0; axis < Dim; ++axis) force[i][axis] = extra.at(records * i, axis);
         return force;
     }
     static constexpr double no_force[4] = {0, 0, 0, 0};
 };
+using body = assembly<2>;
+using space_body = assembly<3>;
+
+/// Spheres of different radii on a disturbed cubic lattice of spacing 2, some apart, some overlapping.
+inline space_body scattered_spheres(std::uint64_t seed, int n, double least, double most) {
+    std::mt19937_64 engine(seed);
+    space_body b;
+    for (int i = 0; i < n; ++i)
+        for (int j = 0; j < n; ++j)
+            for (int k = 0; k < n; ++k) {
+                auto const shake = [&] { return 0.4 * (uniform(engine) - 0.5); };
+                double const u = shake(), v = shake(), w = shake();
+                b.x.push_back({2 * i + u, 2 * j + v, 2 * k + w});
+                b.r.push_back(least + (most - least) * uniform(engine));
+            }
+    return b;
+}
+/// Spheres of radius 1 that touch, in a cubic lattice.
+inline space_body cubic(int n) {
+    auto b = scattered_spheres(1, n, 1, 1);
+    for (auto& x : b.x)
+        for (int axis = 0; axis < 3; ++axis) x[axis] = 2 * std::round(x[axis] / 2);
+    return b;
+}
 
 /// Discs of different radii on a disturbed lattice, some apart, some overlapping.
 inline body scattered(std::uint64_t seed, int rows, int columns, double least, double most) {

@@ -43,8 +43,8 @@ struct body {
         return {p, make_pore_network(mesh(), points(), r.data(), boundary), 1.0, points(), r.data()};
     }
     /// The records of a particle store: {x, y, arc, radius}, and those of two ghosts.
-    record_column<double> place() const {
-        record_column<double> column;
+    body_column<double> place() const {
+        body_column<double> column;
         column.resize(x.size() + 2);
         for (std::size_t i = 0; i < x.size() + 2; ++i) {
             bool const ghost = i >= x.size();
@@ -684,7 +684,8 @@ TEST_CASE("single precision follows double") {
     flow.set_pressure(0, 1);
     single.set_pressure(0, 1);
     double const dt = 0.5 * flow.critical_time_step();
-    record_column<float> place, extra;
+    body_column<float> place;
+    record_column<float> extra;
     place.resize(9);
     for (std::size_t i = 0; i < 9; ++i) {
         place.at(i, 0) = i < 7 ? x[i][0] : float(i);

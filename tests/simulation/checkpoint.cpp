@@ -60,7 +60,8 @@ struct space_viscous_in_single : lacuna::default_model<3, float> {
     using damping = lacuna::viscous_damping;
 };
 
-/// Discs or spheres in a box of walls, half of them bonded, thrown about; some loads still rise, one is held.
+/// Discs or spheres between a rising floor and a ceiling that holds its stress, half of them bonded, thrown about; some
+/// loads still rise, one is held.
 template <class Model>
 lacuna::simulation<Model> lively(int threads = 1) {
     constexpr int dim = Model::dim;
@@ -87,10 +88,18 @@ lacuna::simulation<Model> lively(int threads = 1) {
     lacuna::vec<double, dim> floor{}, up{};
     floor[1] = -0.6;
     up[1] = 1;
-    p.walls = {{floor, up, p.materials[0].contact}};
+    lacuna::vec<double, dim> ceiling{};
+    ceiling[1] = 5.7;
+    p.walls = {{floor, up, p.materials[0].contact}, {ceiling, -up, p.materials[0].contact}};
     p.gravity[1] = -0.5;
     lacuna::simulation<Model> run(packing, p);
     run.fix(7);
+    run.move_wall(0, up * 0.1, 0.4);
+    lacuna::wall_servo<dim> servo;
+    servo.stress = 0.5;
+    servo.area = 12;
+    servo.max_speed = 0.2;
+    run.hold_wall(1, servo);
     for (std::size_t k = 0; k < run.size(); ++k) {
         lacuna::vec<double, dim> v{};
         for (int axis = 0; axis < dim; ++axis) v[axis] = 0.4 * noise(k, 6 + axis);

@@ -6,6 +6,7 @@
 #include "reference.hpp"
 #include "simulation/setups.hpp"
 
+#include <lacuna/laws/beam_bond.hpp>
 #include <lacuna/laws/brittle_beam_bond.hpp>
 #include <lacuna/laws/parallel_bond.hpp>
 
@@ -13,14 +14,16 @@ using namespace setups;
 
 namespace {
 
-template <int Dim>
+template <int Dim, class Bond = lacuna::parallel_bond>
 struct beams : lacuna::default_model<Dim> {
     using contact_law = lacuna::no_contact;
-    using bond_law = lacuna::parallel_bond;
+    using bond_law = Bond;
 };
-struct damped_beams : beams<2> {
+template <int Dim, class Bond = lacuna::parallel_bond>
+struct damped_beams_of : beams<Dim, Bond> {
     using damping = lacuna::combined_damping;
 };
+using damped_beams = damped_beams_of<2>;
 
 template <class Model>
 lacuna::simulation_parameters<Model> beam(double kn, double ks, double tensile = never, double shear = never) {
@@ -49,6 +52,97 @@ TEST_CASE("a tip-loaded beam of parallel bonds bends as 4d says", "[moment]") {
         auto const e = sim.orientation(std::size_t(count));
         REQUIRE_THAT(std::atan2(e[1], e[0]) / force, WithinRel(reference("4d.with_bending_spring", n, "tip_rotation"), 1e-6));
     }
+}
+
+namespace {
+
+/// Particles of radii that alternate between 0.5 and `other`, each touching the next, bonded, along x.
+template <int Dim>
+lacuna::packing<double, Dim> uneven_chain(int count, double other) {
+    lacuna::packing<double, Dim> p;
+    lacuna::vec<double, Dim> x{};
+    for (int k = 0; k < count; ++k) {
+        p.add(x, k % 2 == 0 ? 0.5 : other);
+        x[0] += 0.5 + other;
+        if (k > 0) p.bonds.push_back({k - 1, k});
+    }
+    return p;
+}
+
+/// Deflection and turn of the tip of a cantilever of `count` beams under a force across it, over the force.
+template <int Dim>
+std::array<double, 2> tip_of_cantilever(lacuna::packing<double, Dim> const& discs, lacuna::beam_bond::material const& bond,
+                                        double drag, long long steps) {
+    using model = damped_beams_of<Dim, lacuna::beam_bond>;
+    lacuna::simulation_parameters<model> p;
+    p.materials[0].density = unit_density(Dim);
+    p.materials[0].bond = bond;
+    p.damping = {0, drag, 0.3};
+    p.safety = 0.5;
+    lacuna::simulation<model> sim(discs, p);
+    std::size_t const last = discs.size() - 1;
+    sim.fix(0);
+    lacuna::vec<double, Dim> force{};
+    force[1] = 0.6e-9;
+    force[Dim - 1] += Dim == 2 ? 0.4e-9 : 0.8e-9;
+    sim.apply(last, force);
+    sim.run(steps);
+    auto const moved = sim.position(last) - discs.position[last];
+    auto const e = sim.orientation(last);
+    if constexpr (Dim == 2)
+        return {moved[1] / 1e-9, std::atan2(e[1], e[0]) / 1e-9};
+    else
+        return {std::hypot(moved[1], moved[2]) / 1e-9, 2 * std::hypot(e[2], e[3]) / 1e-9};
+}
+
+} // namespace
+
+TEST_CASE("a tip-loaded beam of elastic beams bends as 4d says", "[moment]") {
+    // Its springs, k_n = k_s = 1 and 0.3 against bending, as a section and moduli: k_theta / k_n = R^2 / 3, and
+    // 12 k_theta / (1 + phi) = k_s, phi = 12 k_theta / (kappa G A).
+    double const R = std::sqrt(0.9), young = 1 / (2 * R), kappa = 3.6 / 2.6 / (young / 2 * 2 * R);
+    for (int const count : {5, 10}) {
+        auto const tip = tip_of_cantilever(chain<2>(count + 1), {young, 0, never, never, R / 0.5, kappa},
+                                           count == 5 ? 0.15 : 0.04, count == 5 ? 6000 : 30000);
+        std::string const n = std::to_string(count);
+        REQUIRE_THAT(tip[0], WithinRel(reference("4d.with_bending_spring", n, "tip"), 1e-6));
+        REQUIRE_THAT(tip[1], WithinRel(reference("4d.with_bending_spring", n, "tip_rotation"), 1e-6));
+    }
+}
+
+TEST_CASE("a cantilever of any number of elastic beams has the beam's deflection", "[moment]") {
+    // F L^3 / (3 E I) + F L / (kappa G A), and a turn of F L^2 / (2 E I): exact for one beam, five, and with unequal radii.
+    double const young = 3, nu = 0.2, shear = young / 2.4;
+    for (double const kappa : {never, 0.8})
+        for (int const count : {1, 5}) {
+            INFO(count << " beams, kappa = " << kappa);
+            double const length = count, area = 1, inertia = 1.0 / 12;
+            auto const tip = tip_of_cantilever(chain<2>(count + 1), {young, nu, never, never, 1, kappa}, 0.2, 8000);
+            CHECK_THAT(tip[0], WithinRel(length * length * length / (3 * young * inertia) + length / (kappa * shear * area), 1e-6));
+            CHECK_THAT(tip[1], WithinRel(length * length / (2 * young * inertia), 1e-6));
+        }
+    {
+        double const length = 4 * 0.8, area = pi * 0.09, inertia = pi * 0.0081 / 4;
+        auto const tip = tip_of_cantilever(uneven_chain<3>(5, 0.3), {young, nu, never, never, 1, 0.8}, 0.12, 20000);
+        CHECK_THAT(tip[0], WithinRel(length * length * length / (3 * young * inertia) + length / (0.8 * shear * area), 1e-6));
+        CHECK_THAT(tip[1], WithinRel(length * length / (2 * young * inertia), 1e-6));
+    }
+}
+
+TEST_CASE("elastic beams of unequal radii are stable up to the bound of the step", "[moment]") {
+    lacuna::simulation_parameters<beams<2, lacuna::beam_bond>> p;
+    p.materials[0].density = unit_density(2);
+    p.materials[0].bond = {1e4, 0.3, never, never, 1, 0.8};
+    p.safety = 0.99;
+    lacuna::simulation<beams<2, lacuna::beam_bond>> sim(uneven_chain<2>(8, 0.2), p);
+    sim.set_velocity(3, {0, 1e-6});
+    double const start = sim.kinetic_energy();
+    double most = 0;
+    for (int k = 0; k < 20000; ++k) {
+        sim.step();
+        most = std::max(most, sim.kinetic_energy());
+    }
+    CHECK(most < 3 * start);
 }
 
 TEST_CASE("the stiffness against bending is that of 4e", "[moment]") {
@@ -96,13 +190,19 @@ TEST_CASE("a parallel bond breaks where the stress at its rim says", "[moment]")
     }
 }
 
-TEMPLATE_TEST_CASE_SIG("free beams conserve momenta and energy", "[moment]", ((int Dim), Dim), 2, 3) {
-    auto p = beam<beams<Dim>>(1e4, 4e3);
+TEMPLATE_TEST_CASE_SIG("free beams conserve momenta and energy", "[moment]", ((int Dim, class Bond), Dim, Bond),
+                       (2, lacuna::parallel_bond), (3, lacuna::parallel_bond), (2, lacuna::beam_bond), (3, lacuna::beam_bond)) {
+    lacuna::simulation_parameters<beams<Dim, Bond>> p;
+    p.materials[0].density = unit_density(Dim);
+    if constexpr (std::is_same_v<Bond, lacuna::parallel_bond>)
+        p.materials[0].bond = {1e4, 4e3, never, never, 1};
+    else
+        p.materials[0].bond = {1e4, 0.3, never, never, 1, 0.8};
     p.safety = 0.1;
     auto discs = chain<Dim>(4);
     discs.position[2][1] += 0.3; // bent, and of unequal radii
     discs.radius[1] = 0.4;
-    lacuna::simulation<beams<Dim>> sim(discs, p);
+    lacuna::simulation<beams<Dim, Bond>> sim(discs, p);
     lacuna::vec<double, Dim> v{};
     v[1] = 1;
     v[Dim - 1] += 0.5;

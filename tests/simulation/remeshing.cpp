@@ -5,13 +5,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <random>
+#include <string>
 #include <type_traits>
 #include <vector>
 
 #include <lacuna/pores/explicit_flow.hpp>
 #include <lacuna/pores/implicit_flow.hpp>
 #include <lacuna/pores/triangulation.hpp>
+#include <lacuna/simulation/checkpoint.hpp>
 
 using namespace lacuna;
 using setups::springs;
@@ -63,6 +66,85 @@ simulation<Model> make_shear(remesh_parameters const& remeshing, int threads = 1
         return make_pore_network(triangulate_body(points, radii), points, radii);
     });
     return sim;
+}
+
+/// A run's state after each of so many steps.
+template <class Model>
+void check_resumed(std::string const& name, long long steps, std::size_t least) {
+    std::string const path = "remeshing_" + name + ".bin";
+    remesh_parameters const often{remesh_rule::when_needed, 20};
+    auto whole = make_shear<Model>(often);
+    std::vector<std::uint64_t> states;
+    std::vector<long long> anew; // steps after which the mesh was another
+    for (long long n = 0; n < steps; ++n) {
+        auto const before = whole.flow().ledger().remeshes;
+        whole.step_with_energy();
+        states.push_back(state_hash(whole));
+        if (whole.flow().ledger().remeshes > before) anew.push_back(n + 1);
+    }
+    INFO(anew.size() << " new meshes");
+    REQUIRE(anew.size() >= least);
+    for (long long const at : {1LL, anew[0] - 1, anew[0], anew[anew.size() / 2] + 7, anew.back()}) {
+        auto first = make_shear<Model>(often, 2);
+        for (long long n = 0; n < at; ++n) first.step_with_energy();
+        save_checkpoint(path, first);
+        auto second = make_shear<Model>(often);
+        load_checkpoint(path, second);
+        REQUIRE(state_hash(second) == states[std::size_t(at - 1)]);
+        // On to the end, as a run that has gone elsewhere before, too.
+        for (auto* run : {&second, &first}) {
+            if (run == &first) load_checkpoint(path, first);
+            for (long long n = at; n < steps; ++n) {
+                run->step_with_energy();
+                REQUIRE(state_hash(*run) == states[std::size_t(n)]);
+            }
+        }
+        REQUIRE(second.flow().network().pressure == whole.flow().network().pressure);
+        REQUIRE(second.energy().residual() == whole.energy().residual());
+    }
+    // Other pores than those of the file, of the same particles.
+    auto other = make_shear<Model>(often);
+    other.fill_pores([](points_view<double, 2> points, double const* radii) {
+        auto drained = [](auto const&) { return throat_boundary<double>{boundary_kind::drained, 0.0}; };
+        return make_pore_network(triangulate_body(points, radii), points, radii, drained);
+    });
+    auto const before = state_hash(other);
+    REQUIRE_THROWS_WITH(load_checkpoint(path, other), contains_text("its pores were made in another way"));
+    REQUIRE(state_hash(other) == before);
+    // And without remeshing it is of other settings.
+    auto fixed = make_shear<Model>({remesh_rule::never});
+    REQUIRE_THROWS_WITH(load_checkpoint(path, fixed), contains_text("other settings"));
+    std::remove(path.c_str());
+}
+
+/// Four discs A, B below and C, D above, radius 0.3, that do not touch, all held; C and D move to the right. The two
+/// pores are ABD and ADC first; once AD is longer than BC a triangulation has ABC and BDC. A and C are bonded.
+/// \param speed of C and D, m/s; \param drains the sides of a new mesh, not of the first, are drained
+template <class Model>
+simulation<Model> make_four(simulation_parameters<Model> p, double strength, double speed = 5, bool drains = false) {
+    packing<double, 2> discs;
+    for (vec<double, 2> const x : {vec<double, 2>{0, 0}, {1, 0}, {-0.02, 1}, {0.98, 1}}) discs.add(x, 0.3);
+    discs.bonds.push_back({0, 2});
+    p.materials = springs<Model>(1e3, 1e3, 0, 1, strength).materials;
+    p.damping.factor = 0;
+    p.flow.bulk_modulus = 1e3;
+    p.flow.aperture = {0.05, 1.0, 1.0};
+    simulation<Model> sim(discs, p);
+    for (std::size_t k = 0; k < 4; ++k) sim.fix(k);
+    for (std::size_t const k : {2u, 3u}) sim.set_velocity(k, {speed, 0});
+    sim.fill_pores([drains, first = points_view<double, 2>(sim.particles().positions())[2][0]](
+                       points_view<double, 2> points, double const* radii) {
+        auto const sides = drains && points[2][0] != first ? boundary_kind::drained : boundary_kind::sealed;
+        return make_pore_network(regular_triangulation(points, radii), points, radii,
+                                 [&](auto const&) { return throat_boundary<double>{sides, 0.0}; });
+    });
+    return sim;
+}
+
+/// Explicit limit of the four discs, s: V / (K_f C) of either pore, whose throat is between the discs i and j.
+double limit_of_four(double conductivity, vec<double, 2> const& across) {
+    double const volume = 0.5 - setups::pi * 0.09 / 2, aperture = 0.05 + norm(across) - 0.6;
+    return volume / (1e3 * conductivity * aperture * aperture * aperture / 0.6);
 }
 
 template <class Model>
@@ -169,4 +251,106 @@ TEST_CASE("explicit flow is given a new mesh like implicit flow, bad intervals a
     REQUIRE(turned_over(sim) == 0);
     for (double const p : sim.flow().network().pressure) REQUIRE(std::isfinite(p));
     REQUIRE_THROWS_WITH(make_shear<sheared>({remesh_rule::when_needed, 0}), contains_text("remeshing.interval = 0"));
+}
+
+TEST_CASE("a run with new meshes is resumed to the same bits, with implicit and with explicit flow", "[checkpoint]") {
+    check_resumed<sheared>("implicit", 2500, 5);
+    check_resumed<sheared_explicitly>("explicit", 2500, 1);
+}
+
+TEST_CASE("a broken bond is a reason for a new mesh, where that is asked for") {
+    for (bool const asked : {false, true}) {
+        simulation_parameters<sheared> p;
+        p.time_step = 1e-3;
+        p.remeshing = {remesh_rule::when_needed, 10, asked};
+        // The bond gives way at a stretch of 0.1 m, when C is 0.46 m to the right of A.
+        auto sim = make_four<sheared>(p, 100 / 0.6);
+        long long broke = -1;
+        while (broke < 0 && sim.steps() < 200) {
+            sim.step();
+            REQUIRE(sim.flow().ledger().remeshes == 0);
+            if (!sim.events().empty()) broke = sim.steps();
+        }
+        REQUIRE(broke == int(std::ceil((std::sqrt(1.1002 * 1.1002 - 1) + 0.02) / 5e-3)) + 1);
+        while (sim.steps() % 10 != 9) sim.step();
+        REQUIRE(sim.flow().ledger().remeshes == 0);
+        sim.step();
+        REQUIRE(sim.flow().ledger().remeshes == (asked ? 1 : 0));
+        auto const& net = sim.flow().network();
+        REQUIRE(net.interior_throats == 1);
+        // The throat between the pores is BC then, and AD without.
+        std::array<int, 2> ends{sim.particles().id(std::size_t(net.throat_particle[0][0])),
+                                sim.particles().id(std::size_t(net.throat_particle[1][0]))};
+        std::sort(ends.begin(), ends.end());
+        REQUIRE(ends == (asked ? std::array<int, 2>{1, 2} : std::array<int, 2>{0, 3}));
+        sim.run(50);
+        REQUIRE(sim.flow().ledger().remeshes == (asked ? 1 : 0));
+    }
+}
+
+TEST_CASE("the explicit flow's step is safe from the first step on, as throats open, and after a new mesh") {
+    double const conductivity = 0.2;
+    double const first = limit_of_four(conductivity, {0.98, 1});
+    simulation_parameters<sheared_explicitly> p;
+    p.flow.conductivity = conductivity;
+    p.safety = 0.8;
+    SECTION("before anything has run, gaps count") {
+        auto sim = make_four(p, 1e9);
+        REQUIRE_THAT(sim.limits().flow, WithinRel(first, 1e-12));
+        REQUIRE_THAT(sim.time_step(), WithinRel(0.8 * first, 1e-12));
+        p.time_step = 1.01 * first;
+        auto hasty = make_four(p, 1e9);
+        REQUIRE_THROWS_WITH(hasty.step(), contains_text("time_step = ") && contains_text("the flow between pores"));
+    }
+    SECTION("a step of the simulation's choice is chosen again as throats open") {
+        auto sim = make_four(p, 1e9, 0.5);
+        sim.flow().set_pressure(0, 100);
+        int changes = 0;
+        while (sim.time() < 3) {
+            double const step = sim.time_step(), time = sim.time();
+            sim.run(1);
+            REQUIRE_THAT(sim.time(), WithinRel(time + step, 1e-12));
+            // Apertures are those of the positions before the step; the next look is at most 64 steps away.
+            double const limit = limit_of_four(conductivity, {0.98 + 0.5 * time, 1});
+            REQUIRE_THAT(sim.limits().flow, WithinRel(limit, 1e-9));
+            REQUIRE(step < 1.2 * limit);
+            if (sim.time_step() != step) {
+                ++changes;
+                REQUIRE_THAT(sim.time_step(), WithinRel(0.8 * limit, 1e-9));
+            }
+        }
+        REQUIRE(changes >= 3);
+        // Equal volumes and equal pressures, in the end.
+        for (double const pressure : sim.flow().network().pressure) REQUIRE_THAT(pressure, WithinRel(50.0, 1e-9));
+    }
+    SECTION("one that was asked for ends the run, unless unstable steps are allowed or steps are divided") {
+        p.time_step = 0.8 * first;
+        auto const drive = [&] { return make_four(p, 1e9, 0.5); };
+        long long expected = 63;
+        while (limit_of_four(conductivity, {0.98 + 0.5 * p.time_step * double(expected), 1}) > p.time_step) expected += 64;
+        auto sim = drive();
+        REQUIRE_THROWS_WITH(sim.run(5000), contains_text("the flow between pores allows") && contains_text("substeps = 0"));
+        REQUIRE(sim.steps() == expected + 1);
+        p.flow.substeps = 0;
+        auto careful = drive();
+        REQUIRE(careful.run(expected + 100) == expected + 100);
+        p.flow.substeps = 1;
+        p.allow_unstable_step = true;
+        auto bold = drive();
+        REQUIRE(bold.run(expected + 100) == expected + 100);
+    }
+    SECTION("a new mesh is looked at at once") {
+        p.remeshing = {remesh_rule::when_needed, 10, true};
+        p.safety = 0.95;
+        // The bond gives way when C is 0.95 m to the right of A, before the first look at step 64.
+        auto sim = make_four(p, (std::hypot(0.93, 1.0) - 1) * 1e3 / 0.6, 15, true);
+        double const chosen = sim.time_step();
+        while (sim.flow().ledger().remeshes == 0 && sim.steps() < 5000) {
+            REQUIRE(sim.time_step() == chosen);
+            sim.run(1);
+        }
+        REQUIRE(sim.steps() < 64);
+        REQUIRE(sim.time_step() < chosen);
+        REQUIRE_THAT(sim.time_step(), WithinRel(0.95 * sim.limits().flow, 1e-12));
+    }
 }

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 #
 # SOURCE must not compile, and the compiler must say what its line "// refused: <text>" announces; with -DLACUNA_GOOD
-# it must compile, so that the refusal has no other reason.
+# it must compile, so that the refusal has no other reason. What the compiler says is to be short enough to be read.
 
 cmake_minimum_required(VERSION 3.25)
 
@@ -29,4 +29,9 @@ endif()
 string(FIND "${said}" "${expected}" found)
 if(found EQUAL -1)
   message(FATAL_ERROR "refused, but without '${expected}':\n${said}")
+endif()
+string(REGEX MATCHALL "\n" ends "${said}")
+list(LENGTH ends lines)
+if(NOT lines LESS 20)
+  message(FATAL_ERROR "the refusal has ${lines} lines, 20 or more:\n${said}")
 endif()

@@ -37,23 +37,32 @@ using aligned_vector = std::vector<T, aligned_allocator<T>>;
 template <class Real>
 using record = pack<Real, 4>;
 
-/// Column of records, one per particle or pair.
-template <class Real>
+/// Column of entries, one per particle or pair, of one or more records each.
+template <class Real, int Records = 1>
 class record_column {
 public:
+    /// Numbers of an entry.
+    static constexpr std::size_t stride = 4 * Records;
     record_column() = default;
     explicit record_column(std::size_t count) { resize(count); }
     void assign(std::size_t count, record<Real> const& value) {
-        data_.resize(4 * count);
-        for (std::size_t k = 0; k < count; ++k) set(k, value);
+        data_.resize(stride * count);
+        for (std::size_t k = 0; k < count; ++k)
+            for (int r = 0; r < Records; ++r) set(k, value, r);
     }
-    void resize(std::size_t count) { data_.resize(4 * count, Real(0)); }
-    std::size_t size() const noexcept { return data_.size() / 4; }
-    record<Real> operator[](std::size_t k) const noexcept { return record<Real>::load(data_.data() + 4 * k); }
-    void set(std::size_t k, record<Real> const& value) noexcept { value.store(data_.data() + 4 * k); }
-    /// Number `lane` of record `k`.
-    Real& at(std::size_t k, int lane) noexcept { return data_[4 * k + std::size_t(lane)]; }
-    Real at(std::size_t k, int lane) const noexcept { return data_[4 * k + std::size_t(lane)]; }
+    void resize(std::size_t count) { data_.resize(stride * count, Real(0)); }
+    std::size_t size() const noexcept { return data_.size() / stride; }
+    /// The first record of entry `k`; record `r` of it.
+    record<Real> operator[](std::size_t k) const noexcept { return of(k, 0); }
+    record<Real> of(std::size_t k, int r) const noexcept {
+        return record<Real>::load(data_.data() + stride * k + 4 * std::size_t(r));
+    }
+    void set(std::size_t k, record<Real> const& value, int r = 0) noexcept {
+        value.store(data_.data() + stride * k + 4 * std::size_t(r));
+    }
+    /// Number `lane` of entry `k`.
+    Real& at(std::size_t k, int lane) noexcept { return data_[stride * k + std::size_t(lane)]; }
+    Real at(std::size_t k, int lane) const noexcept { return data_[stride * k + std::size_t(lane)]; }
     Real* data() noexcept { return data_.data(); }
     Real const* data() const noexcept { return data_.data(); }
     template <class Archive>
@@ -64,6 +73,10 @@ public:
 private:
     aligned_vector<Real> data_;
 };
+
+/// How particles are kept: place and velocity, two records side by side. In double precision they fill one cache line.
+template <class Real>
+using body_column = record_column<Real, 2>;
 
 namespace detail {
 template <class V, class H>
@@ -140,6 +153,63 @@ std::array<pack<T, W>, 4> turn_records(At const& at) noexcept {
             for (int l = 0; l < 4; ++l) r[std::size_t(l)].v[k] = one[l];
         }
         return r;
+    }
+}
+
+/// Turns W entries of two records: result[l][k] is number l of entry k.
+/// \param at callable at.template operator()<N>(k, first): N numbers of entry k, from number `first` on
+template <class T, int W, class At>
+std::array<pack<T, W>, 8> turn_bodies(At const& at) noexcept {
+    using P = pack<T, W>;
+    using full = typename P::native;
+    if constexpr (sizeof(T) == 8 && W == 8) {
+        auto row = [&](int k) { return at.template operator()<8>(k, 0).v; };
+        auto even = [](full a, full b) { return full(__builtin_shufflevector(a, b, 0, 8, 2, 10, 4, 12, 6, 14)); };
+        auto odd = [](full a, full b) { return full(__builtin_shufflevector(a, b, 1, 9, 3, 11, 5, 13, 7, 15)); };
+        auto low = [](full a, full b) { return full(__builtin_shufflevector(a, b, 0, 1, 4, 5, 8, 9, 12, 13)); };
+        auto high = [](full a, full b) { return full(__builtin_shufflevector(a, b, 2, 3, 6, 7, 10, 11, 14, 15)); };
+        full a = row(0), b = row(1), c = row(2), d = row(3), e = row(4), f = row(5), g = row(6), h = row(7);
+        full ab = even(a, b), cd = even(c, d), ef = even(e, f), gh = even(g, h);
+        full abcd = low(ab, cd), efgh = low(ef, gh), abcd2 = high(ab, cd), efgh2 = high(ef, gh);
+        full ab1 = odd(a, b), cd1 = odd(c, d), ef1 = odd(e, f), gh1 = odd(g, h);
+        full abcd1 = low(ab1, cd1), efgh1 = low(ef1, gh1), abcd3 = high(ab1, cd1), efgh3 = high(ef1, gh1);
+        return {P(low(abcd, efgh)),   P(low(abcd1, efgh1)),   P(low(abcd2, efgh2)),  P(low(abcd3, efgh3)),
+                P(high(abcd, efgh)), P(high(abcd1, efgh1)), P(high(abcd2, efgh2)), P(high(abcd3, efgh3))};
+    } else if constexpr (sizeof(T) == 4 && W == 16) {
+        // Two entries to a register, the four records of one column of the result in its four parts of 128 bits.
+        auto two = [&](int k) {
+            return detail::join<full>(at.template operator()<8>(k, 0).v, at.template operator()<8>(k + 4, 0).v);
+        };
+        auto even = [](full a, full b) {
+            return full(__builtin_shufflevector(a, b, 0, 16, 1, 17, 4, 20, 5, 21, 8, 24, 9, 25, 12, 28, 13, 29));
+        };
+        auto odd = [](full a, full b) {
+            return full(__builtin_shufflevector(a, b, 2, 18, 3, 19, 6, 22, 7, 23, 10, 26, 11, 27, 14, 30, 15, 31));
+        };
+        auto low = [](full a, full b) {
+            return full(__builtin_shufflevector(a, b, 0, 1, 16, 17, 4, 5, 20, 21, 8, 9, 24, 25, 12, 13, 28, 29));
+        };
+        auto high = [](full a, full b) {
+            return full(__builtin_shufflevector(a, b, 2, 3, 18, 19, 6, 7, 22, 23, 10, 11, 26, 27, 14, 15, 30, 31));
+        };
+        auto first = [](full a, full b) {
+            return P(full(__builtin_shufflevector(a, b, 0, 1, 2, 3, 8, 9, 10, 11, 16, 17, 18, 19, 24, 25, 26, 27)));
+        };
+        auto second = [](full a, full b) {
+            return P(full(__builtin_shufflevector(a, b, 4, 5, 6, 7, 12, 13, 14, 15, 20, 21, 22, 23, 28, 29, 30, 31)));
+        };
+        auto block = [&](int k) {
+            full a = two(k), b = two(k + 1), c = two(k + 2), d = two(k + 3);
+            full ab0 = even(a, b), ab1 = odd(a, b), cd0 = even(c, d), cd1 = odd(c, d);
+            return std::array<full, 4>{low(ab0, cd0), high(ab0, cd0), low(ab1, cd1), high(ab1, cd1)};
+        };
+        auto front = block(0), back = block(8);
+        return {first(front[0], back[0]),  first(front[1], back[1]),  first(front[2], back[2]),  first(front[3], back[3]),
+                second(front[0], back[0]), second(front[1], back[1]), second(front[2], back[2]), second(front[3], back[3])};
+    } else {
+        auto place = turn_records<T, W>([&](int k) { return at.template operator()<4>(k, 0); });
+        auto motion = turn_records<T, W>([&](int k) { return at.template operator()<4>(k, 4); });
+        return {place[0], place[1], place[2], place[3], motion[0], motion[1], motion[2], motion[3]};
     }
 }
 

@@ -35,7 +35,12 @@ auto fail_bond(particle_store<Real, Dim> const& store, BondEntry const& bond, Bo
     // The loop has already added the slip of this step to the history.
     auto const slip = frame.motion.slip;
     frame.motion.slip = {};
-    auto const answer = BondLaw::evaluate(bond_parameters, frame.motion, bond.state);
+    auto const answer = [&] {
+        if constexpr (carries_moment<BondLaw>)
+            return BondLaw::evaluate(bond_parameters, frame.motion, frame.turn(i.spin, i.spin, time_step), bond.state);
+        else
+            return BondLaw::evaluate(bond_parameters, frame.motion, bond.state);
+    }();
     if (!answer.broken) return {};
 
     Real const touching = frame.motion.touching_distance();

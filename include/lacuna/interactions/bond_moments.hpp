@@ -10,15 +10,15 @@
 
 namespace lacuna {
 
-/// Adds the bonds' moments to `out`, a record {F_x, F_y, torque over radius, 0} per particle in 2D, two records (force,
-/// torque over radius) in 3D; one after the other, in the order of the pairs.
-/// \param moments on the first of each bond, rotation_dim numbers a slot, N m
+/// Adds the moments of the pairs of a table to `out`, a record {F_x, F_y, torque over radius, 0} per particle in 2D, two
+/// records (force, torque over radius) in 3D; one after the other, in the order of the pairs.
+/// \param moments on the first of each pair, rotation_dim numbers a slot, N m
 template <class Table, class Real, int Dim>
-void add_moments(particle_store<Real, Dim> const& store, Table const& bonds, std::vector<Real> const& moments,
+void add_moments(particle_store<Real, Dim> const& store, Table const& pairs, std::vector<Real> const& moments,
                  record_column<Real>& out) noexcept {
-    for (std::size_t s = 0; s < bonds.slots(); ++s) {
-        if (bonds.is_filler(s, store.size())) continue;
-        auto const i = std::size_t(bonds.i(s)), j = std::size_t(bonds.j(s));
+    for (std::size_t s = 0; s < pairs.slots(); ++s) {
+        if (pairs.is_filler(s, store.size())) continue;
+        auto const i = std::size_t(pairs.i(s)), j = std::size_t(pairs.j(s));
         for (int axis = 0; axis < rotation_dim<Dim>; ++axis) {
             Real const moment = moments[s * rotation_dim<Dim> + std::size_t(axis)];
             out.at(Dim == 2 ? i : 2 * i + 1, Dim == 2 ? 2 : axis) += moment / store.radius(i);
@@ -27,16 +27,16 @@ void add_moments(particle_store<Real, Dim> const& store, Table const& bonds, std
     }
 }
 
-/// Calls visit(i, j, normal, moment_stiffness) for every bond of a law with moments.
+/// Calls visit(i, j, normal, moment_stiffness) for every pair of a law with moments.
 template <class Law, class Table, class Real, int Dim, class Visit>
-void visit_moment_stiffness(particle_store<Real, Dim> const& store, Table const& bonds,
+void visit_moment_stiffness(particle_store<Real, Dim> const& store, Table const& pairs,
                             parameter_table<Law, Real> const& parameters, Visit const& visit) {
-    for (std::size_t s = 0; s < bonds.slots(); ++s) {
-        if (bonds.is_filler(s, store.size())) continue;
-        auto const i = std::size_t(bonds.i(s)), j = std::size_t(bonds.j(s));
+    for (std::size_t s = 0; s < pairs.slots(); ++s) {
+        if (pairs.is_filler(s, store.size())) continue;
+        auto const i = std::size_t(pairs.i(s)), j = std::size_t(pairs.j(s));
         auto const arm = convert<double>(store.position(j) - store.position(i));
-        auto const k = Law::template against_turning<Dim>(parameters.row[std::size_t(bonds.parameter()[s])],
-                                                          store.radius(i), store.radius(j));
+        auto const k = Law::template against_turning<Dim>(parameters.row[std::size_t(pairs.parameter()[s])],
+                                                          store.radius(i), store.radius(j), Real(norm(arm)));
         visit(i, j, arm / norm(arm), moment_stiffness<double>{double(k.bending), double(k.twisting)});
     }
 }

@@ -116,7 +116,7 @@ public:
         if constexpr (!is_absent<ContactLaw>)
             evaluate_chunk<pair_kind::contact, WithEnergy, ContactLaw, Damping>(
                 contacts_, chunk, contact_parameters_, damping_, store, time_step, forces_.template begin<1>(contacts_, chunk),
-                forces_.template places<1>(contacts_, chunk), static_cast<Real*>(nullptr), energy[1],
+                forces_.template places<1>(contacts_, chunk), contact_moments_.data(), energy[1],
                 [&](std::size_t pack) {
                     if (auto const k = find_deep_overlap(store, contacts_, pack); k >= 0) deep_overlap_[std::size_t(chunk)] = k;
                 });
@@ -127,14 +127,17 @@ public:
         forces_.with_sums(chunk, use);
     }
 
-    /// Adds the moments that bonds have exerted in the last evaluation; see lacuna::add_moments().
+    /// Adds the moments that pairs have exerted in the last evaluation; see lacuna::add_moments().
     void add_moments([[maybe_unused]] store_type const& store, [[maybe_unused]] record_column<Real>& out) const noexcept {
         if constexpr (carries_moment<BondLaw>) lacuna::add_moments(store, bonds_, moments_, out);
+        if constexpr (carries_moment<ContactLaw>) lacuna::add_moments(store, contacts_, contact_moments_, out);
     }
-    /// Calls visit(i, j, normal, moment_stiffness) for every bond that carries moments.
+    /// Calls visit(i, j, normal, moment_stiffness) for every bond, and contact candidate, that carries moments.
     template <class Visit>
     void for_each_moment_stiffness([[maybe_unused]] store_type const& store, [[maybe_unused]] Visit const& visit) const {
         if constexpr (carries_moment<BondLaw>) visit_moment_stiffness<BondLaw>(store, bonds_, bond_parameters_, visit);
+        if constexpr (carries_moment<ContactLaw>)
+            visit_moment_stiffness<ContactLaw>(store, contacts_, contact_parameters_, visit);
     }
 
     /// Failures of the step just evaluated, in the order of the pairs; to be completed with step and time.
@@ -252,6 +255,7 @@ private:
 
     void build_rows(store_type const& store) {
         forces_.build(store.size(), bonds_, contacts_);
+        if constexpr (carries_moment<ContactLaw>) contact_moments_.resize(contacts_.slots() * rotation_dim<Dim>);
         auto const chunks = std::size_t(forces_.chunks());
         chunk_events_.resize(chunks);
         energy_.resize(chunks);
@@ -292,7 +296,7 @@ private:
     bond_table bonds_;
     contact_table contacts_;
     force_store<Real, Dim> forces_;
-    std::vector<Real> moments_; ///< on the first of each bond, by slot; bond laws with moments only
+    std::vector<Real> moments_, contact_moments_; ///< on the first of each pair, by slot; of laws with moments only
     std::vector<bond_record> bond_records_;
     std::vector<bond_entry> bond_entries_;
     std::vector<std::int32_t> bond_rows_; ///< of each bond, where bonds have values of their own

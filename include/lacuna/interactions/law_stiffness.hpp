@@ -63,7 +63,9 @@ void visit_stiffness(particle_store<Real, Dim> const& store, Table const& table,
         pair_motion<Real, Dim> const still{Real(distance), Real(ri), Real(rj), {}, Real(0)};
         auto const force = Law::evaluate(parameters.row[std::size_t(table.parameter()[s])], still, table.get(s).state);
         double const prestress = std::hypot(double(force.normal_force), double(norm(force.shear_force))) / distance;
-        visit(i, j, arm / distance, k.normal, k.shear, prestress, distance * ri / (ri + rj), distance * rj / (ri + rj));
+        double lever_i = distance * ri / (ri + rj), lever_j = distance * rj / (ri + rj);
+        if constexpr (requires { Law::shears_in_the_middle; }) lever_i = lever_j = distance / 2;
+        visit(i, j, arm / distance, k.normal, k.shear, prestress, lever_i, lever_j);
     }
 }
 

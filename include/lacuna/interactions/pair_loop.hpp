@@ -72,31 +72,28 @@ template <class Lanes, class Real, int Dim>
 relative_state<Lanes, Dim> load_relative(particle_store<Real, Dim> const& store, std::uint32_t const* i,
                                          std::uint32_t const* j) noexcept {
     constexpr int W = Lanes::width;
-    using rec = record<Real>;
-    auto joined = [&](Real const* base, rec const& sign) {
-        return turn_records<Real, W>([&](int k) { return rec::load(base + j[k]) + rec::load(base + i[k]) * sign; });
-    };
-    rec difference(Real(-1)), difference_and_sum(Real(-1));
-    difference_and_sum.v[3] = 1;
-    auto place = joined(store.place().data(), difference_and_sum);
+    constexpr Real rolls = Dim == 2 ? 1 : -1;
+    Real const* bodies = store.bodies().data();
+    Real const signs[8] = {-1, -1, -1, 1, -1, -1, rolls, -1};
+    auto joined = turn_bodies<Real, W>([&]<int N>(int k, int first) {
+        using part = pack<Real, N>;
+        return part::load(bodies + j[k] + first) + part::load(bodies + i[k] + first) * part::load(signs + first);
+    });
     relative_state<Lanes, Dim> s;
-    s.radii = place[3];
+    s.radii = joined[3];
+    s.radius_i = (joined[3] - joined[7]) * Lanes(Real(0.5));
+    s.radius_j = (joined[3] + joined[7]) * Lanes(Real(0.5));
     if constexpr (Dim == 2) {
-        difference.v[2] = 1;
-        auto motion = joined(store.velocities().data(), difference);
-        s.arm = {{place[0], place[1]}};
-        s.velocity = {{motion[0], motion[1]}};
-        s.rolling = {{motion[2]}};
-        s.radius_i = (place[3] - motion[3]) * Lanes(Real(0.5));
-        s.radius_j = (place[3] + motion[3]) * Lanes(Real(0.5));
+        s.arm = {{joined[0], joined[1]}};
+        s.velocity = {{joined[4], joined[5]}};
+        s.rolling = {{joined[6]}};
     } else {
-        auto motion = joined(store.velocities().data(), difference);
-        auto turning = joined(store.surface_speeds().data(), rec(Real(1)));
-        s.arm = {{place[0], place[1], place[2]}};
-        s.velocity = {{motion[0], motion[1], motion[2]}};
+        using rec = record<Real>;
+        Real const* speeds = store.surface_speeds().data();
+        auto turning = turn_records<Real, W>([&](int k) { return rec::load(speeds + j[k] / 2) + rec::load(speeds + i[k] / 2); });
+        s.arm = {{joined[0], joined[1], joined[2]}};
+        s.velocity = {{joined[4], joined[5], joined[6]}};
         s.rolling = {{turning[0], turning[1], turning[2]}};
-        s.radius_i = (place[3] - motion[3]) * Lanes(Real(0.5));
-        s.radius_j = (place[3] + motion[3]) * Lanes(Real(0.5));
     }
     return s;
 }
@@ -104,8 +101,9 @@ relative_state<Lanes, Dim> load_relative(particle_store<Real, Dim> const& store,
 template <class Lanes, class Real, int Dim>
 vec<Lanes, rotation_dim<Dim>> load_spin(particle_store<Real, Dim> const& store, std::uint32_t const* who,
                                         Lanes const& radius) noexcept {
-    auto const& speeds = Dim == 2 ? store.velocities() : store.surface_speeds();
-    auto speed = load_turned<Real, Lanes::width>(speeds.data(), who);
+    Real const* speeds = Dim == 2 ? store.bodies().data() + 4 : store.surface_speeds().data();
+    constexpr std::uint32_t share = Dim == 2 ? 1 : 2;
+    auto speed = turn_records<Real, Lanes::width>([&](int k) { return record<Real>::load(speeds + who[k] / share); });
     if constexpr (Dim == 2)
         return {{speed[2] / radius}};
     else
@@ -114,7 +112,7 @@ vec<Lanes, rotation_dim<Dim>> load_spin(particle_store<Real, Dim> const& store, 
 /// One body of a store, as plain numbers.
 template <class Real, int Dim>
 body<Real, Dim> load_body(particle_store<Real, Dim> const& store, std::size_t k) noexcept {
-    return {store.position(k), store.velocity(k), store.spin(k), Real(store.place().at(k, 3)), store.mass(k)};
+    return {store.position(k), store.velocity(k), store.spin(k), Real(store.bodies().at(k, 3)), store.mass(k)};
 }
 
 /// Writes the force record of one pair. Its fourth number, which no sum of forces reads, is the normal force: what

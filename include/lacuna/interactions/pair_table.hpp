@@ -48,8 +48,8 @@ public:
         std::size_t next = 0;
         auto const push = [&](entry const& e) {
             state_.set(i_.size(), e.state);
-            i_.push_back(4 * std::uint32_t(e.i));
-            j_.push_back(4 * std::uint32_t(e.j));
+            i_.push_back(stride * std::uint32_t(e.i));
+            j_.push_back(stride * std::uint32_t(e.j));
             parameter_.push_back(e.parameter);
             label_.push_back(e.label);
         };
@@ -78,14 +78,14 @@ public:
     std::size_t first_pack(int chunk) const noexcept { return chunk_begin_[std::size_t(chunk)]; }
     std::size_t end_pack(int chunk) const noexcept { return chunk_begin_[std::size_t(chunk) + 1]; }
 
-    std::int32_t i(std::size_t slot) const noexcept { return std::int32_t(i_[slot] / 4); }
-    std::int32_t j(std::size_t slot) const noexcept { return std::int32_t(j_[slot] / 4); }
-    /// Where the particles' records begin: four times their indices.
+    std::int32_t i(std::size_t slot) const noexcept { return std::int32_t(i_[slot] / stride); }
+    std::int32_t j(std::size_t slot) const noexcept { return std::int32_t(j_[slot] / stride); }
+    /// Where the particles begin in a body_column, in reals.
     std::uint32_t const* i_records() const noexcept { return i_.data(); }
     std::uint32_t const* j_records() const noexcept { return j_.data(); }
     std::int32_t const* parameter() const noexcept { return parameter_.data(); }
     std::int32_t label(std::size_t slot) const noexcept { return label_[slot]; }
-    bool is_filler(std::size_t slot, std::size_t particles) const noexcept { return std::size_t(i_[slot]) >= 4 * particles; }
+    bool is_filler(std::size_t slot, std::size_t particles) const noexcept { return std::size_t(i_[slot]) >= stride * particles; }
     /// The parameter row that all pairs of a pack share, or -1.
     std::int32_t uniform_parameter(std::size_t p) const noexcept { return uniform_[p]; }
     field_packs<history_of, Real, width>& states() noexcept { return state_; }
@@ -110,6 +110,7 @@ public:
     }
 
 private:
+    static constexpr std::uint32_t stride = body_column<Real>::stride;
     std::vector<std::uint32_t> i_, j_;
     std::vector<std::int32_t> parameter_, label_, uniform_;
     std::vector<std::size_t> chunk_begin_{0};

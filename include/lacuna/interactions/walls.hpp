@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <span>
 #include <string>
@@ -28,7 +29,8 @@ struct wall {
 };
 
 /// Contacts of particles with walls, by the model's contact law. To the law a wall is a body of radius 0 at the
-/// particle's foot point: the lever arm is the particle's distance from the plane.
+/// particle's foot point: the lever arm is the particle's distance from the plane. Walls stand still unless they are
+/// given velocities; they do not turn.
 template <class ContactLaw, class Damping, class Real, int Dim>
 class wall_contacts {
 public:
@@ -39,18 +41,28 @@ public:
     wall_contacts() = default;
     wall_contacts(std::span<wall_type const> walls, std::span<typename ContactLaw::material const> materials,
                   double thickness)
-        : walls_(walls.begin(), walls.end()), materials_(materials.size()), force_(walls.size()) {
+        : walls_(walls.begin(), walls.end()), materials_(materials.size()), motion_(walls.size()), force_(walls.size()),
+          stiffness_(walls.size()) {
         for (std::size_t w = 0; w < walls_.size(); ++w) {
             walls_[w].validate("wall " + std::to_string(w));
             walls_[w].normal = walls_[w].normal / norm(walls_[w].normal);
+            motion_[w].point = walls_[w].point;
             for (auto const& m : materials) parameters_.add(ContactLaw::combine(m, walls_[w].material, thickness));
         }
     }
 
     bool empty() const noexcept { return walls_.empty(); }
+    /// Whether a particle, or wall, may have moved so far since update() that a contact is not listed.
+    /// \param moved upper bound of the path of any particle since the last call, m
+    bool outdated(Real moved) noexcept {
+        path_ += moved;
+        return !(path_ <= reach_);
+    }
 
     /// Lists the particles that may touch a wall before they have moved by `reach`, keeping known histories.
     void update(particle_store<Real, Dim> const& store, Real reach) {
+        reach_ = reach;
+        path_ = 0;
         std::vector<near_wall> fresh;
         std::size_t old = 0;
         for (std::size_t w = 0; w < walls_.size(); ++w)
@@ -73,6 +85,7 @@ public:
                           typename Damping::parameters const& damping, record_column<Real>& out, pair_energy& energy) {
         std::int32_t beyond = -1;
         for (auto& f : force_) f = {};
+        std::fill(stiffness_.begin(), stiffness_.end(), 0.0);
         energy = {};
         for (auto& n : near_) {
             auto const i = load_body(store, n.particle);
@@ -80,17 +93,21 @@ public:
             for (int axis = 0; axis < Dim; ++axis) normal[axis] = Real(walls_[n.plane].normal[axis]);
             Real const distance = height(i.position, n.plane);
             if (!(distance > 0)) beyond = std::int32_t(n.particle);
-            body<Real, Dim> const j{i.position - normal * distance, {}, {}, Real(0), i.mass};
+            auto const wall_velocity = convert<Real>(motion_[n.plane].velocity);
+            auto const velocity = i.velocity - wall_velocity;
+            body<Real, Dim> const j{i.position - normal * distance, wall_velocity, {}, Real(0), i.mass};
             // The foot point follows the particle along the wall, so the pair never turns: the slip is the
             // particle's own motion against the plane.
             auto frame = relative_motion(i, j, time_step);
             frame.normal = -normal;
             frame.motion.distance = distance;
-            frame.motion.normal_rate = dot(normal, i.velocity);
-            frame.motion.slip = slip(i, normal, distance, time_step);
-            auto const& law = parameters_.row[n.plane * materials_ + std::size_t(store.material(n.particle))];
-            auto const answer = ContactLaw::evaluate(law, frame.motion, n.state);
+            frame.motion.normal_rate = dot(normal, velocity);
+            frame.motion.slip = slip(velocity, i.spin, normal, distance, time_step);
+            auto const& law = row_of(store, n);
+            auto const answer = answer_to(law, frame, n.state, i.spin, time_step);
             Real normal_force = answer.normal_force;
+            if (normal_force < 0)
+                stiffness_[n.plane] += double(dashpot_stiffness<ContactLaw>(law, frame.motion, n.state));
             if constexpr (Damping::acts_on_pairs) {
                 // A wall has no mass of its own to share the motion: the effective mass is the particle's.
                 Real const drag = Damping::pair_force(damping, dashpot_stiffness<ContactLaw>(law, frame.motion, n.state),
@@ -111,12 +128,54 @@ public:
             }
             for (int axis = 0; axis < rotation_dim<Dim>; ++axis)
                 out.at(Dim == 2 ? row : row + 1, Dim == 2 ? 2 : axis) += torque[axis];
+            if constexpr (carries_moment<ContactLaw>) {
+                auto const moment = frame.moment(answer);
+                for (int axis = 0; axis < rotation_dim<Dim>; ++axis)
+                    out.at(Dim == 2 ? row : row + 1, Dim == 2 ? 2 : axis) += moment[axis] / i.radius;
+            }
         }
         return beyond;
     }
 
     /// Force of the particles on a wall in the last evaluation, N.
     vec<double, Dim> force(std::size_t w) const noexcept { return force_[w]; }
+    /// Sum of the normal stiffnesses of the contacts that a wall had in the last evaluation, N/m.
+    double stiffness(std::size_t w) const noexcept { return stiffness_[w]; }
+
+    /// \name Motion
+    /// \{
+    vec<double, Dim> point(std::size_t w) const noexcept { return motion_[w].point; }
+    vec<double, Dim> normal(std::size_t w) const noexcept { return walls_[w].normal; }
+    /// Of the last step, m/s.
+    vec<double, Dim> velocity(std::size_t w) const noexcept { return motion_[w].velocity; }
+    /// Of the next step.
+    vec<double, Dim> next_velocity(std::size_t w) const noexcept { return motion_[w].next; }
+    void set_velocity(std::size_t w, vec<double, Dim> const& v) noexcept { motion_[w].next = v; }
+    /// Moves the walls on by a step.
+    /// \return power of the walls against the forces of the last evaluation, with the velocities of the step before it
+    ///         and of this one, W
+    std::array<double, 2> advance(double time_step) noexcept {
+        std::array<double, 2> power{};
+        double farthest = 0;
+        for (std::size_t w = 0; w < motion_.size(); ++w) {
+            auto& m = motion_[w];
+            power[0] -= dot(force_[w], m.velocity);
+            m.velocity = m.next;
+            power[1] -= dot(force_[w], m.velocity);
+            auto const way = m.velocity * time_step;
+            m.point += way;
+            farthest = std::max(farthest, norm(way));
+        }
+        path_ += Real(farthest);
+        return power;
+    }
+    /// Largest speed of a wall in the last step, m/s.
+    double fastest() const noexcept {
+        double most = 0;
+        for (auto const& m : motion_) most = std::max(most, norm(m.velocity));
+        return most;
+    }
+    /// \}
 
     /// Calls visit(particle, normal, normal_stiffness, shear_stiffness, lever) for each particle that may touch a
     /// wall, as if it did.
@@ -125,15 +184,25 @@ public:
         for (auto const& n : near_) {
             double const r = double(store.radius(n.particle));
             double const distance = double(height(store.position(n.particle), n.plane));
-            auto const k = law_stiffness<ContactLaw, Dim>(
-                parameters_.row[n.plane * materials_ + std::size_t(store.material(n.particle))], distance, r, 0.0, false);
+            auto const k = law_stiffness<ContactLaw, Dim>(row_of(store, n), distance, r, 0.0, false);
             visit(n.particle, walls_[n.plane].normal, k.normal, k.shear, std::max(distance, 0.0));
         }
+    }
+    /// Calls visit(particle, normal, moment_stiffness) for each particle that may touch a wall; laws with moments.
+    template <class Visit>
+    void for_each_moment_stiffness([[maybe_unused]] particle_store<Real, Dim> const& store,
+                                   [[maybe_unused]] Visit const& visit) const {
+        if constexpr (carries_moment<ContactLaw>)
+            for (auto const& n : near_) {
+                double const r = double(store.radius(n.particle));
+                auto const k = ContactLaw::template against_turning<Dim>(row_of(store, n), Real(r), Real(0), Real(r));
+                visit(n.particle, walls_[n.plane].normal, moment_stiffness<double>{double(k.bending), double(k.twisting)});
+            }
     }
     /// Writes or reads what a run changes.
     template <class Archive>
     void archive(Archive& ar, particle_store<Real, Dim> const& store) {
-        ar(near_, fixed_length{force_});
+        ar(near_, fixed_length{force_}, fixed_length{motion_}, reach_, path_);
         for (auto const& n : near_)
             require_state(n.plane < walls_.size() && n.particle < store.size(), "a wall or its particle is none");
     }
@@ -144,19 +213,31 @@ private:
         history_of<Real> state;
     };
 
+    auto const& row_of(particle_store<Real, Dim> const& store, near_wall const& n) const noexcept {
+        return parameters_.row[n.plane * materials_ + std::size_t(store.material(n.particle))];
+    }
+    template <class Parameters>
+    static auto answer_to(Parameters const& law, pair_frame<Real, Dim> const& frame, history_of<Real> const& state,
+                          [[maybe_unused]] vec<Real, rotation_dim<Dim>> const& spin, [[maybe_unused]] Real time_step) {
+        if constexpr (carries_moment<ContactLaw>)
+            return ContactLaw::evaluate(law, frame.motion, frame.turn(spin, {}, time_step), state);
+        else
+            return ContactLaw::evaluate(law, frame.motion, state);
+    }
     Real height(vec<Real, Dim> const& x, std::size_t w) const noexcept {
         double h = 0;
         for (int axis = 0; axis < Dim; ++axis)
-            h += (double(x[axis]) - walls_[w].point[axis]) * walls_[w].normal[axis];
+            h += (double(x[axis]) - motion_[w].point[axis]) * walls_[w].normal[axis];
         return Real(h);
     }
-    static vec<Real, shear_dim<Dim>> slip(body<Real, Dim> const& i, vec<Real, Dim> const& normal, Real distance,
-                                          Real time_step) {
+    /// \param velocity of the particle against the wall
+    static vec<Real, shear_dim<Dim>> slip(vec<Real, Dim> const& velocity, vec<Real, rotation_dim<Dim>> const& spin,
+                                          vec<Real, Dim> const& normal, Real distance, Real time_step) {
         if constexpr (Dim == 2) {
-            return {(-dot(perpendicular(-normal), i.velocity) - distance * i.spin[0]) * time_step};
+            return {(-dot(perpendicular(-normal), velocity) - distance * spin[0]) * time_step};
         } else {
-            auto const along = i.velocity - normal * dot(normal, i.velocity);
-            return (-along - cross(i.spin, -normal) * distance) * time_step;
+            auto const along = velocity - normal * dot(normal, velocity);
+            return (-along - cross(spin, -normal) * distance) * time_step;
         }
     }
 
@@ -164,7 +245,14 @@ private:
     std::size_t materials_ = 0;
     parameter_table<ContactLaw, Real> parameters_;
     std::vector<near_wall> near_;
+    /// Where a wall is, how it moved in the last step, and how it moves in the next.
+    struct wall_motion {
+        vec<double, Dim> point{}, velocity{}, next{};
+    };
+    std::vector<wall_motion> motion_;
     std::vector<vec<double, Dim>> force_;
+    std::vector<double> stiffness_;
+    Real reach_ = 0, path_ = 0; ///< path_: of the fastest particle and the fastest wall, since update()
 };
 
 } // namespace lacuna

@@ -119,9 +119,38 @@ struct exponential_aperture {
     }
 };
 
+/// Section of a throat in space, the facet between three spheres, as a tube of its hydraulic radius:
+///
+///   C = k s A R_h^2 / l,   k = 1 / (2 mu)
+///
+/// A is what the spheres leave of the facet, R_h that area over the length of the arcs that bound it: 0 where they close
+/// it. A round tube has s = 1 (Hagen, Poiseuille). After B. Chareyre, A. Cortis, E. Catalano and E. Barthelemy (2012,
+/// "Pore-scale modeling of viscous flow and induced forces in dense sphere packings", Transp. Porous Media 94, 595), who
+/// take R_h from the walls of the two pores instead, and the distance between these for l.
+struct hydraulic_section {
+    struct parameters {
+        double shape_factor = 1; ///< s; > 0
+
+        /// \throws std::invalid_argument naming field, value and rule.
+        void validate(std::string const& name) const { require_positive(name + ".shape_factor", shape_factor); }
+    };
+    /// s A R_h^2, m^4.
+    template <class T>
+    static T opening(parameters const& p, T area, T hydraulic_radius) {
+        return T(value_t<T>(p.shape_factor)) * max(area, T(0)) * hydraulic_radius * hydraulic_radius;
+    }
+};
+
+/// A law of the section of a throat in space, instead of its particles' pairs.
+template <class Law>
+concept throat_section_law = requires(typename Law::parameters const& p) {
+    p.validate("aperture");
+    { Law::opening(p, 1.0, 1.0) } -> std::convertible_to<double>;
+};
+
 /// What the flow policies ask of an aperture law.
 template <class Law>
-concept aperture_law = requires(typename Law::parameters const& p) {
+concept aperture_law = throat_section_law<Law> || requires(typename Law::parameters const& p) {
     p.validate("aperture");
     { Law::aperture(p, 1.0, 1.0) } -> std::convertible_to<double>;
 };

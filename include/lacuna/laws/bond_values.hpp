@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <string>
 
@@ -17,9 +18,19 @@ struct bond_values {
     std::optional<double> bending_stiffness{}; ///< N m/rad, >= 0; of bonds with moments
     std::optional<double> tensile_force{};     ///< at which the bond breaks in pure tension, N, >= 0
     std::optional<double> shear_force{};       ///< at which the bond breaks in pure shear, N, >= 0
+    std::optional<double> strength_factor{};   ///< of the strengths that its materials give, >= 0
 
     bool empty() const noexcept {
-        return !normal_stiffness && !shear_stiffness && !bending_stiffness && !tensile_force && !shear_force;
+        return !normal_stiffness && !shear_stiffness && !bending_stiffness && !tensile_force && !shear_force &&
+               !strength_factor;
+    }
+    /// Puts the bond's own strengths in place of its materials'.
+    /// \param area of its cross-section, m^2
+    /// \param tensile, shear strengths, Pa; kept below a finite "never"
+    void set_strengths(double area, double& tensile, double& shear) const noexcept {
+        double const factor = strength_factor.value_or(1.0);
+        tensile = std::min(tensile_force ? *tensile_force / area : tensile * factor, 1e30);
+        shear = std::min(shear_force ? *shear_force / area : shear * factor, 1e30);
     }
     /// \throws std::invalid_argument naming field, value and rule.
     void validate(std::string const& name) const {
@@ -28,6 +39,7 @@ struct bond_values {
         if (bending_stiffness) require_not_negative(name + ".bending_stiffness", *bending_stiffness);
         if (tensile_force) require_limit(name + ".tensile_force", *tensile_force);
         if (shear_force) require_limit(name + ".shear_force", *shear_force);
+        if (strength_factor) require_not_negative(name + ".strength_factor", *strength_factor);
     }
 };
 

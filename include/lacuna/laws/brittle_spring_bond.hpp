@@ -24,11 +24,24 @@ struct smaller_particle_area {
 
 /// The safety zone of the paper's Fig. 4: a rectangle. Beyond the tensile limit or the shear limit the bond
 /// breaks, and where both are exceeded in one step, in the mode whose limit is exceeded by the larger ratio.
+/// Under compression the force stays at the tensile limit.
 struct box_envelope {
+    static constexpr bool crushes = true;
+    struct material {
+        void validate(std::string const&) const {}
+    };
+    template <class T>
+    struct parameters {};
+    static parameters<double> combine(material const&, material const&) { return {}; }
+
     template <class T>
     struct verdict {
         mask_t<T> broken, in_tension;
     };
+    template <class T>
+    static verdict<T> judge(parameters<T> const&, T normal, T shear, T tensile_limit, T shear_limit) {
+        return judge(normal, shear, tensile_limit, shear_limit);
+    }
     template <class T>
     static verdict<T> judge(T normal, T shear, T tensile_limit, T shear_limit) {
         auto tension = normal > tensile_limit;
@@ -38,13 +51,47 @@ struct box_envelope {
     }
 };
 
-/// Linear springs in tension, compression and shear, breaking at the paper's criterion (eq. 10, Fig. 4).
+/// Mohr and Coulomb's line with a tension cut-off (Coulomb 1776, Mohr 1900; the cut-off after Paul 1961, J. Appl. Mech. 28,
+/// 259): the shear strength is the cohesion, and compression adds to it.
+///
+///   F_n > min(sigma_n, c / tan phi) A_c       breaks in tension
+///   |F_s| > c A_c - F_n tan phi               breaks in shear
+///
+/// Of both in one step the mode whose limit is exceeded by the larger ratio. Nothing fails in pure compression.
+struct mohr_coulomb_envelope {
+    static constexpr bool crushes = false;
+    struct material {
+        double internal_friction = 0.5; ///< tan phi, 1; of a pair the smaller one
+
+        /// \throws std::invalid_argument naming field, value and rule.
+        void validate(std::string const& name) const {
+            require_not_negative(name + ".internal_friction", internal_friction);
+        }
+    };
+    template <class T>
+    struct parameters {
+        T internal_friction, apex; // tan phi; tensile strength at most, over the cohesion
+    };
+    static parameters<double> combine(material const& a, material const& b) {
+        double const slope = min(a.internal_friction, b.internal_friction);
+        return {slope, slope > 0 ? min(1 / slope, 1e30) : 1e30};
+    }
+    template <class T>
+    static box_envelope::verdict<T> judge(parameters<T> const& p, T normal, T shear, T tensile_limit, T cohesion) {
+        return box_envelope::judge(normal, shear, min(tensile_limit, cohesion * p.apex),
+                                   max(cohesion - normal * p.internal_friction, T(0)));
+    }
+};
+
+/// Linear springs in tension, compression and shear, breaking at an envelope's criterion: the paper's (eq. 10, Fig. 4)
+/// with box_envelope.
 ///
 ///   F_n = k_n * (d - L)                       L: distance at which the bond was made
 ///   F_s <- F_s + k_s * slip
 ///   F_n >  sigma_n A_c   breaks in tension
 ///   |F_s| > sigma_s A_c  breaks in shear
-///   F_n < -sigma_n A_c   compression failure: the force stays at the limit, the bond remains (L follows)
+///   F_n < -sigma_n A_c   compression failure, of envelopes that crush: the force stays at the limit, the bond remains
+///                        (L follows)
 ///
 /// The normal force is the total form of eq. 10's sum of increments: the two are equal up to rounding, also
 /// after compression failure, because the same L carries the plastic shortening.
@@ -55,7 +102,8 @@ struct brittle_spring_bond_with {
         double normal_stiffness = 1e6;                                    ///< k_n, N/m
         double shear_stiffness = 1e6;                                     ///< k_s, N/m
         double tensile_strength = std::numeric_limits<double>::infinity(); ///< sigma_n, Pa; infinite: never breaks
-        double shear_strength = std::numeric_limits<double>::infinity();   ///< sigma_s, Pa
+        double shear_strength = std::numeric_limits<double>::infinity();   ///< sigma_s, Pa; Mohr and Coulomb's: cohesion
+        [[no_unique_address]] typename Envelope::material envelope{};      ///< what the envelope asks for besides
 
         /// \throws std::invalid_argument naming field, value and rule.
         void validate(std::string const& name) const {
@@ -63,6 +111,7 @@ struct brittle_spring_bond_with {
             require_not_negative(name + ".shear_stiffness", shear_stiffness);
             require_limit(name + ".tensile_strength", tensile_strength);
             require_limit(name + ".shear_strength", shear_strength);
+            envelope.validate(name + ".envelope");
         }
     };
 
@@ -71,6 +120,7 @@ struct brittle_spring_bond_with {
         T normal_stiffness, normal_compliance, shear_stiffness, shear_compliance;
         T tensile_strength, shear_strength; // Pa
         T thickness;                        // m
+        [[no_unique_address]] typename Envelope::template parameters<T> envelope{};
     };
 
     template <class T, int Dim>
@@ -92,7 +142,8 @@ struct brittle_spring_bond_with {
                 shear > 0 ? 1 / shear : 0.0,
                 weaker(a.tensile_strength, b.tensile_strength),
                 weaker(a.shear_strength, b.shear_strength),
-                thickness};
+                thickness,
+                Envelope::combine(a.envelope, b.envelope)};
     }
 
     /// The parameters of a bond with values of its own.
@@ -105,8 +156,7 @@ struct brittle_spring_bond_with {
         p.normal_compliance = 1 / p.normal_stiffness;
         p.shear_stiffness = own.shear_stiffness.value_or(p.shear_stiffness);
         p.shear_compliance = p.shear_stiffness > 0 ? 1 / p.shear_stiffness : 0.0;
-        if (own.tensile_force) p.tensile_strength = min(*own.tensile_force / area, 1e30);
-        if (own.shear_force) p.shear_strength = min(*own.shear_force / area, 1e30);
+        own.set_strengths(area, p.tensile_strength, p.shear_strength);
         return p;
     }
 
@@ -122,10 +172,13 @@ struct brittle_spring_bond_with {
         T area = Area::template area<Dim>(m.radius_i, m.radius_j, p.thickness);
         T limit = p.tensile_strength * area;
         T trial = p.normal_stiffness * (m.distance - h.rest_distance);
-        T normal = max(trial, -limit);
-        T rest = select(trial < -limit, m.distance + limit * p.normal_compliance, h.rest_distance);
+        T normal = trial, rest = h.rest_distance;
+        if constexpr (Envelope::crushes) {
+            normal = max(trial, -limit);
+            rest = select(trial < -limit, m.distance + limit * p.normal_compliance, h.rest_distance);
+        }
         auto shear = h.shear_force + m.slip * p.shear_stiffness;
-        auto verdict = Envelope::judge(normal, norm(shear), limit, p.shear_strength * area);
+        auto verdict = Envelope::judge(p.envelope, normal, norm(shear), limit, p.shear_strength * area);
         return {{normal,
                  shear,
                  {rest, shear},
@@ -143,5 +196,7 @@ struct brittle_spring_bond_with {
 
 /// The paper's bond.
 using brittle_spring_bond = brittle_spring_bond_with<>;
+/// The same springs, breaking at Mohr and Coulomb's line with a tension cut-off.
+using mohr_coulomb_bond = brittle_spring_bond_with<mohr_coulomb_envelope>;
 
 } // namespace lacuna

@@ -28,6 +28,7 @@ template <class T, int Dim>
 struct pair_turn {
     vec<T, rotation_dim<Dim>> bend; ///< turn of j less turn of i; in space its part across the normal, rad
     T twist;                        ///< in space its part about the normal, in the plane 0, rad
+    vec<T, Dim> normal{};           ///< unit vector from i to j
 };
 
 /// What a law answers. H is the law's history.
@@ -47,12 +48,16 @@ struct bond_response : pair_response<T, Dim, H> {
     mask_t<T> broken_in_tension; ///< meaningful where broken: by tension (else by shear)
 };
 
-/// The answer of a bond that also carries moments.
-template <class T, int Dim, class H>
-struct moment_response : bond_response<T, Dim, H> {
+/// The answer of a law that also carries moments. Response is pair_response or bond_response.
+template <class T, int Dim, class Response>
+struct with_moments : Response {
     vec<T, rotation_dim<Dim>> bending_moment; ///< on i, and the opposite on j; in space across the normal, N m
     T twisting_moment;                        ///< in space, on i about the normal, N m
 };
+template <class T, int Dim, class H>
+using moment_response = with_moments<T, Dim, bond_response<T, Dim, H>>; ///< of a bond
+template <class T, int Dim, class H>
+using moment_pair_response = with_moments<T, Dim, pair_response<T, Dim, H>>; ///< of a contact
 
 /// Stiffness of a bond against bending and twisting, N m/rad.
 template <class T>
@@ -60,10 +65,10 @@ struct moment_stiffness {
     T bending, twisting;
 };
 
-/// Whether a bond law carries moments. It has then
+/// Whether a law carries moments. It has then
 ///   - `static constexpr bool carries_moment = true` and in its history `bending_moment`, which turns with the pair;
-///   - `evaluate(parameters, pair_motion, pair_turn, history) -> moment_response` beside the form without a turn;
-///   - `against_turning<Dim>(parameters, radius_i, radius_j) -> moment_stiffness`.
+///   - `evaluate(parameters, pair_motion, pair_turn, history) -> with_moments` beside the form without a turn;
+///   - `against_turning<Dim>(parameters, radius_i, radius_j, distance) -> moment_stiffness`.
 template <class Law>
 inline constexpr bool carries_moment = requires { requires Law::carries_moment; };
 

@@ -88,8 +88,7 @@ struct parallel_bond {
             p.moment_factor = 1;
             p.moment_factor = *own.bending_stiffness / against_turning<Dim>(p, radius_i, radius_j).bending;
         }
-        if (own.tensile_force) p.tensile_strength = min(*own.tensile_force / area, 1e30);
-        if (own.shear_force) p.shear_strength = min(*own.shear_force / area, 1e30);
+        own.set_strengths(area, p.tensile_strength, p.shear_strength);
         return p;
     }
 
@@ -100,7 +99,7 @@ struct parallel_bond {
     }
 
     template <int Dim, class T>
-    static moment_stiffness<T> against_turning(parameters<T> const& p, T radius_i, T radius_j) {
+    static moment_stiffness<T> against_turning(parameters<T> const& p, T radius_i, T radius_j, T /*distance*/ = T(0)) {
         T r = p.radius_factor * min(radius_i, radius_j);
         T r2 = r * r * p.moment_factor;
         if constexpr (Dim == 2)

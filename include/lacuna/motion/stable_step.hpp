@@ -56,13 +56,17 @@ public:
     /// Springs against the turn of two particles against each other: across the normal, and about it. N m/rad.
     void add_turning(std::size_t i, std::size_t j, point const& normal, double bending, double twisting) {
         std::array<std::size_t, 2> const who{i, j};
-        auto const axes = frame(normal);
-        for (int a = Dim == 2 ? 1 : 0; a < Dim; ++a) {
-            gradient g{}, opposite{};
-            for (int x = 0; x < turns; ++x) g[std::size_t(Dim + x)] = Dim == 2 ? 1 : axes[std::size_t(a)][x];
+        for_each_turn(normal, [&](int a, gradient const& g) {
+            gradient opposite{};
             for (int x = Dim; x < freedoms; ++x) opposite[std::size_t(x)] = -g[std::size_t(x)];
             add(who, std::array{g, opposite}, a == 0 ? twisting : bending);
-        }
+        });
+    }
+    /// The same against something that does not turn.
+    void add_turning(std::size_t i, point const& normal, double bending, double twisting) {
+        for_each_turn(normal, [&](int a, gradient const& g) {
+            add(std::array{i}, std::array<gradient, 1>{g}, a == 0 ? twisting : bending);
+        });
     }
 
     /// Energy 1/2 stiffness (sum over particles g . displacement)^2: a pore that resists a change of volume.
@@ -120,6 +124,16 @@ public:
     }
 
 private:
+    /// Calls use(axis number, gradient of the turn about it): 0 for the normal, in space only.
+    template <class Use>
+    static void for_each_turn(point const& normal, Use const& use) {
+        auto const axes = frame(normal);
+        for (int a = Dim == 2 ? 1 : 0; a < Dim; ++a) {
+            gradient g{};
+            for (int x = 0; x < turns; ++x) g[std::size_t(Dim + x)] = Dim == 2 ? 1 : axes[std::size_t(a)][x];
+            use(a, g);
+        }
+    }
     /// The normal and the tangents.
     static std::array<point, Dim> frame(point const& normal) {
         std::array<point, Dim> axes{};

@@ -45,8 +45,8 @@ struct symplectic_euler {
         [[maybe_unused]] bool const torqued = store.torques().size() > 0;
         for (int k = 0; k < count; ++k) {
             std::size_t const p = first + std::size_t(k);
-            rec place = store.place()[p];
-            rec velocity = store.velocities()[p];
+            rec place = store.bodies().of(p, 0);
+            rec velocity = store.bodies().of(p, 1);
             rec load(Real(0));
             if (loaded) load = store.loads()[p];
             if constexpr (Dim == 2) {
@@ -55,8 +55,8 @@ struct symplectic_euler {
                 rec drag = damping_force<Damping>(damping, force, velocity, [&] { return store.inverse_mass(p); });
                 if constexpr (Damping::acts_on_particles) force += drag;
                 rec next = velocity + force * store.inverse_mass(p) * dt;
-                store.velocities().set(p, next);
-                store.place().set(p, place + next * path);
+                store.bodies().set(p, next, 1);
+                store.bodies().set(p, place + next * path, 0);
                 rec size = abs(next);
                 fastest = max(size, fastest);
                 poison += next * rec(Real(0));
@@ -73,8 +73,8 @@ struct symplectic_euler {
                 rec drag = damping_force<Damping>(damping, force, velocity, [&] { return store.inverse_mass(p); });
                 if constexpr (Damping::acts_on_particles) force += drag;
                 rec next = velocity + force * store.inverse_mass(p) * dt;
-                store.velocities().set(p, next);
-                store.place().set(p, place + next * path);
+                store.bodies().set(p, next, 1);
+                store.bodies().set(p, place + next * path, 0);
                 rec spin = store.surface_speeds()[p];
                 rec brake = damping_force<Damping>(damping, torque, spin, [&] { return store.inverse_rotary(p); });
                 if constexpr (Damping::acts_on_particles) torque += brake;

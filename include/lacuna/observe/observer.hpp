@@ -21,7 +21,9 @@ enum class run_control { go_on, stop };
 
 /// An observer declares the stages it wants as `static constexpr stage stages`. Each declared stage must be
 /// callable: a misspelt or ill-typed hook is an error of compilation. With
-/// `static constexpr bool needs_energy = true` the energy ledger is kept during its runs.
+/// `static constexpr bool needs_energy = true` the energy ledger is kept during its runs; with a member
+/// `bool needs_energy_in(long long step) const` in the steps that it names, counted from 0. A ledger that was not kept
+/// in a step begins anew with the next one.
 template <class O>
 concept observer = requires {
     { std::remove_cvref_t<O>::stages } -> std::convertible_to<stage>;
@@ -31,6 +33,19 @@ namespace detail {
 
 template <class O>
 inline constexpr bool needs_energy = requires { requires std::remove_cvref_t<O>::needs_energy; };
+
+template <class O>
+inline constexpr bool samples_energy = requires(std::remove_cvref_t<O> const& o, long long step) {
+    { o.needs_energy_in(step) } -> std::convertible_to<bool>;
+};
+/// Whether an observer wants the ledger in a step.
+template <class O>
+constexpr bool wants_energy([[maybe_unused]] O const& o, [[maybe_unused]] long long step) {
+    if constexpr (samples_energy<O>)
+        return o.needs_energy_in(step);
+    else
+        return needs_energy<O>;
+}
 
 template <class Simulation, class Event, class O>
 constexpr void check_observer() {
@@ -61,18 +76,19 @@ constexpr void check_observer() {
         static_assert(!requires(type & o, Simulation const& s) { o.on_end(s); }, "on_end is not among the stages");
 }
 
+// A hook that cannot be called has been refused by check_observer(); a call would only make the message longer.
 template <class O, class Simulation>
 void notify_start(O& o, Simulation const& s) {
-    if constexpr (has(O::stages, stage::start)) o.on_start(s);
+    if constexpr (has(O::stages, stage::start) && requires { o.on_start(s); }) o.on_start(s);
 }
 template <class O, class Event, class Simulation>
 void notify_break(O& o, Event const& event, Simulation const& s) {
-    if constexpr (has(O::stages, stage::breakage)) o.on_break(event, s);
+    if constexpr (has(O::stages, stage::breakage) && requires { o.on_break(event, s); }) o.on_break(event, s);
 }
 /// \return whether the run may go on
 template <class O, class Simulation>
 bool notify_step(O& o, Simulation const& s) {
-    if constexpr (has(O::stages, stage::step)) {
+    if constexpr (has(O::stages, stage::step) && requires { o.on_step(s); }) {
         if constexpr (std::is_void_v<decltype(o.on_step(s))>)
             o.on_step(s);
         else
@@ -82,7 +98,7 @@ bool notify_step(O& o, Simulation const& s) {
 }
 template <class O, class Simulation>
 void notify_end(O& o, Simulation const& s) {
-    if constexpr (has(O::stages, stage::end)) o.on_end(s);
+    if constexpr (has(O::stages, stage::end) && requires { o.on_end(s); }) o.on_end(s);
 }
 
 } // namespace detail

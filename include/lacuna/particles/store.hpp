@@ -30,7 +30,7 @@ struct fixed_axes {
 
 /// The particles, as the step reads and writes them.
 ///
-/// Records of four numbers: 2D place {x, y, arc, radius}, velocity {v_x, v_y, surface speed, radius};
+/// Records of four numbers, place and velocity side by side: 2D place {x, y, arc, radius}, velocity {v_x, v_y, surface speed, radius};
 /// 3D place {x, y, z, radius}, velocity {v_x, v_y, v_z, radius}, surface speed {r w_x, r w_y, r w_z, 0}.
 /// Rotations are kept as they appear at the surface: arc = radius times angle, surface speed = radius times spin.
 /// Then the relative motion of a pair is a sum and a difference of records, and torques enter over the radius.
@@ -58,8 +58,7 @@ public:
         if (packing.radius.size() != n) refuse("packing.radius.size()", double(packing.radius.size()), "one per particle");
         if (packing.material.size() != n)
             refuse("packing.material.size()", double(packing.material.size()), "one per particle");
-        place_.resize(n + ghosts);
-        velocity_.resize(n + ghosts);
+        body_.resize(n + ghosts);
         if constexpr (Dim == 3) {
             surface_speed_.resize(n + ghosts);
             quaternion_.assign(n, unit_quaternion());
@@ -98,18 +97,16 @@ public:
             radius_[k] = Real(r);
             inertia_[k] = Real(inertia);
             material_[k] = material;
-            for (int axis = 0; axis < Dim; ++axis) place_.at(k, axis) = packing.position[id][axis];
-            place_.at(k, 3) = Real(r);
-            velocity_.at(k, 3) = Real(r);
+            for (int axis = 0; axis < Dim; ++axis) body_.at(k, axis) = packing.position[id][axis];
+            body_.at(k, 3) = body_.at(k, motion + 3) = Real(r);
             mass_[k] = Real(mass);
             inverse_mass_[k] = Real(1) / mass_[k];
             fix(k, {});
         }
         // Two particles that no real one ever meets: the partners that fill the last pack of a row of pairs.
         for (std::size_t g = 0; g < ghosts; ++g) {
-            place_.at(n + g, 0) = Real(g);
-            place_.at(n + g, 3) = Real(0.25);
-            velocity_.at(n + g, 3) = Real(0.25);
+            body_.at(n + g, 0) = Real(g);
+            body_.at(n + g, 3) = body_.at(n + g, motion + 3) = Real(0.25);
         }
     }
 
@@ -119,11 +116,11 @@ public:
 
     /// \name One particle, by internal index
     /// \{
-    point position(std::size_t k) const noexcept { return head(place_, k); }
-    point velocity(std::size_t k) const noexcept { return head(velocity_, k); }
+    point position(std::size_t k) const noexcept { return head(body_, k); }
+    point velocity(std::size_t k) const noexcept { return head(body_, k, motion); }
     rotation spin(std::size_t k) const noexcept {
         if constexpr (Dim == 2)
-            return {velocity_.at(k, 2) / radius_[k]};
+            return {body_.at(k, motion + 2) / radius_[k]};
         else
             return head(surface_speed_, k) / radius_[k];
     }
@@ -135,7 +132,7 @@ public:
     vec<Real, 2> orientation(std::size_t k) const noexcept
         requires(Dim == 2)
     {
-        Real const angle = place_.at(k, 2) / radius_[k];
+        Real const angle = body_.at(k, 2) / radius_[k];
         return {std::cos(angle), std::sin(angle)};
     }
     /// Unit quaternion {w, x, y, z} (3D).
@@ -147,11 +144,11 @@ public:
     /// Force applied from outside, N.
     point applied_force(std::size_t k) const noexcept { return head(load_, k); }
 
-    void set_position(std::size_t k, point const& x) noexcept { set_head(place_, k, x); }
-    void set_velocity(std::size_t k, point const& v) noexcept { set_head(velocity_, k, v); }
+    void set_position(std::size_t k, point const& x) noexcept { set_head(body_, k, x); }
+    void set_velocity(std::size_t k, point const& v) noexcept { set_head(body_, k, v, motion); }
     void set_spin(std::size_t k, rotation const& w) noexcept {
         if constexpr (Dim == 2)
-            velocity_.at(k, 2) = w[0] * radius_[k];
+            body_.at(k, motion + 2) = w[0] * radius_[k];
         else
             set_head(surface_speed_, k, w * radius_[k]);
     }
@@ -187,12 +184,10 @@ public:
 
     /// \name All particles
     /// \{
-    points_view<Real, Dim> positions() const noexcept { return {place_.data(), size(), 4}; }
+    points_view<Real, Dim> positions() const noexcept { return {body_.data(), size(), body_.stride}; }
     std::span<Real const> radii() const noexcept { return radius_; }
-    record_column<Real>& place() noexcept { return place_; }
-    record_column<Real> const& place() const noexcept { return place_; }
-    record_column<Real>& velocities() noexcept { return velocity_; }
-    record_column<Real> const& velocities() const noexcept { return velocity_; }
+    body_column<Real>& bodies() noexcept { return body_; }
+    body_column<Real> const& bodies() const noexcept { return body_; }
     record_column<Real>& surface_speeds() noexcept { return surface_speed_; }
     record_column<Real> const& surface_speeds() const noexcept { return surface_speed_; }
     record_column<Real>& quaternions() noexcept { return quaternion_; }
@@ -211,7 +206,7 @@ public:
     std::int32_t ghost(int which) const noexcept { return std::int32_t(size()) + which; }
     template <class Archive>
     void serialize(Archive& ar) {
-        ar(place_, velocity_, surface_speed_, quaternion_, load_, fixed_length{free_}, fixed_length{loaded_});
+        ar(body_, surface_speed_, quaternion_, load_, fixed_length{free_}, fixed_length{loaded_});
         bool turned = torque_.size() > 0;
         ar(turned);
         if (turned) {
@@ -234,13 +229,17 @@ private:
         q.v[0] = 1;
         return q;
     }
-    static point head(record_column<Real> const& column, std::size_t k) noexcept {
+    /// Where the velocity begins in an entry of body_.
+    static constexpr int motion = 4;
+    template <class Column>
+    static point head(Column const& column, std::size_t k, int first = 0) noexcept {
         point r{};
-        for (int axis = 0; axis < Dim; ++axis) r[axis] = column.at(k, axis);
+        for (int axis = 0; axis < Dim; ++axis) r[axis] = column.at(k, first + axis);
         return r;
     }
-    static void set_head(record_column<Real>& column, std::size_t k, point const& value) noexcept {
-        for (int axis = 0; axis < Dim; ++axis) column.at(k, axis) = value[axis];
+    template <class Column>
+    static void set_head(Column& column, std::size_t k, point const& value, int first = 0) noexcept {
+        for (int axis = 0; axis < Dim; ++axis) column.at(k, first + axis) = value[axis];
     }
 
     std::vector<std::int32_t> id_, internal_;
@@ -249,7 +248,8 @@ private:
     std::vector<std::uint8_t> free_, loaded_;
     /// Which components of a force, and of a torque over radius, move a particle: a record for each pattern of free_.
     record_column<Real> moving_ = record_column<Real>(free_patterns), turning_ = record_column<Real>(free_patterns);
-    record_column<Real> place_, velocity_, surface_speed_, quaternion_, load_, torque_;
+    body_column<Real> body_; // places and velocities
+    record_column<Real> surface_speed_, quaternion_, load_, torque_;
 };
 
 } // namespace lacuna

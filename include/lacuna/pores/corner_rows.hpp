@@ -13,9 +13,11 @@ namespace lacuna {
 
 /// Which pores act on each particle: the order of their summation. As force_rows has it for the pairs: per particle
 /// a row of entries, all rows of a group of particles equally long (filled up with a zero force).
-template <class Real>
+template <class Real, int Dim>
 class corner_rows {
 public:
+    /// Records of a particle that write() fills: its force; in space also its torque, which is none.
+    static constexpr std::size_t records = Dim == 2 ? 1 : 2;
     static constexpr std::size_t group_particles = 32;
     /// Groups that one thread handles at a time.
     static constexpr std::size_t chunk_groups = 16;
@@ -46,7 +48,7 @@ public:
 
     int chunks() const noexcept { return int((row_.size() + chunk_groups - 1) / chunk_groups); }
 
-    /// Writes {F_x, F_y, 0, 0} for every particle of a chunk, N.
+    /// Writes {F_x, F_y, 0, 0}, in space {F_x, F_y, F_z, 0} and four zeros, for every particle of a chunk, N.
     [[gnu::noinline, gnu::flatten]] void write(int chunk, Real const* forces, record_column<Real>& to) const noexcept {
         std::size_t const first = std::size_t(chunk) * chunk_groups, end = std::min(first + chunk_groups, row_.size());
         for (std::size_t g = first; g < end; ++g) {
@@ -64,21 +66,26 @@ private:
     /// \tparam Length of the rows where it is known at compile time, else 0
     template <std::size_t Length>
     void write_group(std::size_t g, Real const* forces, record_column<Real>& to) const noexcept {
-        using two = pack<Real, 2>;
+        using part = pack<Real, Dim == 2 ? 2 : 4>;
         std::size_t const length = Length > 0 ? Length : row_[g];
         std::uint32_t const* entry = entry_.data() + begin_[g];
         std::size_t const first = g * group_particles, end = std::min(first + group_particles, particles_);
         for (std::size_t k = first; k < end; ++k, entry += length) {
-            two total(Real(0));
+            part total(Real(0));
             if constexpr (Length > 0) {
 #pragma GCC unroll 8
-                for (std::size_t e = 0; e < Length; ++e) total += two::load(forces + entry[e]);
+                for (std::size_t e = 0; e < Length; ++e) total += part::load(forces + entry[e]);
             } else {
-                for (std::size_t e = 0; e < length; ++e) total += two::load(forces + entry[e]);
+                for (std::size_t e = 0; e < length; ++e) total += part::load(forces + entry[e]);
             }
-            two none(Real(0));
-            using native = typename record<Real>::native;
-            to.set(k, record<Real>(native(__builtin_shufflevector(total.v, none.v, 0, 1, 2, 3))));
+            if constexpr (Dim == 2) {
+                part none(Real(0));
+                using native = typename record<Real>::native;
+                to.set(k, record<Real>(native(__builtin_shufflevector(total.v, none.v, 0, 1, 2, 3))));
+            } else {
+                to.set(records * k, total);
+                to.set(records * k + 1, record<Real>(Real(0)));
+            }
         }
     }
 

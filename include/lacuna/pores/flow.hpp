@@ -31,7 +31,7 @@ template <class Policy>
 concept flow_policy = requires(typename Policy::parameters const& parameters,
                                typename Policy::template solver<double, 2>& solver,
                                typename Policy::template solver<double, 2> const& view,
-                               record_column<double> const& place, double const* pair_forces,
+                               body_column<double> const& place, double const* pair_forces,
                                record_column<double>& extra) {
     parameters.validate("flow");
     solver.map_throats(detail::any_pair_lookup{});
@@ -60,9 +60,9 @@ struct no_flow {
         solver(parameters const&, pore_network<Real, Dim> const&, Real, points_view<Real, Dim>, Real const*) {}
         template <class Lookup>
         void map_throats(Lookup const&) noexcept {}
-        void refresh_apertures(record_column<Real> const&, Real const*, int = 1) noexcept {}
+        void refresh_apertures(body_column<Real> const&, Real const*, int = 1) noexcept {}
         template <bool WithLedger>
-        void step(record_column<Real> const&, Real const*, Real, int = 1) noexcept {}
+        void step(body_column<Real> const&, Real const*, Real, int = 1) noexcept {}
         /// Writes zeros.
         void write_tractions(record_column<Real>& extra, int = 1) const noexcept {
             std::fill(extra.data(), extra.data() + 4 * extra.size(), Real(0));

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -30,8 +31,6 @@ namespace lacuna {
 /// step come about.
 template <class Real, int Dim, class Parameters>
 class flow_base {
-    static_assert(Dim == 2, "flow: pores exist in the plane only, so far (Dim = 2)");
-
 public:
     using parameters = Parameters;
     using network_type = pore_network<Real, Dim>;
@@ -42,7 +41,7 @@ public:
     flow_ledger<Real> const& ledger() const noexcept { return ledger_; }
 
     /// Pores that have become one.
-    pore_clusters<Real> const& clusters() const noexcept { return clusters_; }
+    pore_clusters<Real, Dim> const& clusters() const noexcept { return clusters_; }
 
     /// \throws std::invalid_argument for a pore that is not there, a pressure not finite or below the minimum.
     void set_pressure(std::size_t pore, Real pressure) {
@@ -85,7 +84,7 @@ public:
     /// \param place records of the particles, as particle_store has them; here and below
     /// \param pair_forces records of the pairs' forces, at least one; the fourth number is the normal force, N,
     ///        positive in tension; here and below
-    void refresh_apertures(record_column<Real> const& place, Real const* pair_forces, int threads = 1) noexcept {
+    void refresh_apertures(body_column<Real> const& place, Real const* pair_forces, int threads = 1) noexcept {
         if (network_.bare()) return;
         for_each_chunk(throats_.chunks(true), threads, [&](int c) {
             throats_.template pass<true, false, aperture_type>(c, network_, place.data(), pair_forces,
@@ -112,14 +111,15 @@ public:
     }
 
     /// Writes the forces of the pore pressures, as the last step() left them, for every particle: the record
-    /// {F_x, F_y, 0, 0}, N. A pore at its least volume exerts none: it does not change its volume either.
+    /// {F_x, F_y, 0, 0}, in space {F_x, F_y, F_z, 0} and a record of zeros, N. A pore at its least volume exerts none: it
+    /// does not change its volume either.
     void write_tractions(record_column<Real>& extra, int threads = 1) const noexcept {
         for_each_chunk(corners_.chunks(), threads, [&](int c) { corners_.write(c, pores_.forces(), extra); });
     }
 
-    /// Forces on the three corners of a pore for 1 Pa in it, N; also of a pore at its least volume.
-    std::array<vec<Real, Dim>, 3> pore_tractions(std::size_t pore, points_view<Real, Dim> points,
-                                                 Real const* radii) const noexcept {
+    /// Forces on the corners of a pore for 1 Pa in it, N; also of a pore at its least volume.
+    std::array<vec<Real, Dim>, std::size_t(Dim) + 1> pore_tractions(std::size_t pore, points_view<Real, Dim> points,
+                                                                    Real const* radii) const noexcept {
         return lacuna::pore_tractions(network_, thickness_, pore, points, radii);
     }
 
@@ -129,7 +129,9 @@ public:
     }
 
     /// Eq. 19 as printed, s: not safe where apertures differ. Skipped throats count.
+    /// With a law of sections, which have no aperture in its sense, infinite.
     Real equation_19_time_step() const {
+        if constexpr (throat_section_law<aperture_type>) return std::numeric_limits<Real>::infinity();
         return lacuna::equation_19_time_step(network_, parameters_.bulk_modulus, parameters_.conductivity);
     }
 
@@ -152,13 +154,15 @@ protected:
         : flow_base(p, std::move(network), thickness) {
         refresh_geometry(points, radii);
         network_.old_volume = network_.volume;
+        // The sides of a facet are no pairs that touch: throats are opened by where the particles are.
+        if constexpr (Dim == 3) refresh_apertures(particle_records(points, radii), std::array<Real, 4>{}.data());
     }
 
     /// Takes over a network and a ledger.
     /// \return whether throats join the same pores as before
     bool restore_state(network_type network, flow_ledger<Real> const& ledger) {
         bool const same = network.corner == network_.corner && network.throat_pore == network_.throat_pore &&
-                          network.pores() == network_.pores() && network.open_throats() == network_.open_throats();
+                          network.size == network_.size && network.pores() == network_.pores() && network.open_throats() == network_.open_throats();
         network_ = std::move(network);
         ledger_ = ledger;
         if (same) {
@@ -257,13 +261,14 @@ protected:
     network_type network_;
     flow_ledger<Real> ledger_;
     pore_feed<Real> feed_;
-    pore_clusters<Real> clusters_;
+    pore_clusters<Real, Dim> clusters_;
 
 private:
     flow_base(parameters const& p, network_type network, Real thickness)
         : parameters_(p), thickness_(thickness), network_(std::move(network)) {
         parameters_.validate("flow");
         require_positive("thickness", double(thickness));
+        if (Dim == 3 && thickness != Real(1)) refuse("thickness", double(thickness), "1 in space");
         for (std::size_t k = 0; k < network_.pores(); ++k) {
             network_.pressure[k] += Real(p.initial_pressure);
             parameters_.require_pressure("initial pressure of pore " + std::to_string(k), double(network_.pressure[k]));
@@ -271,7 +276,7 @@ private:
         for (auto const& source : network_.sources)
             if (source.kind == flow_source_kind::pressure)
                 parameters_.require_pressure("flow source " + source.name, source.value);
-        if (!network_.bare()) {
+        if constexpr (!throat_section_law<aperture_type>) if (!network_.bare()) {
             Real const aperture = aperture_type::aperture(p.aperture, Real(0), Real(0));
             std::fill(network_.aperture.begin(), network_.aperture.end(), aperture);
         }
@@ -298,9 +303,9 @@ private:
         return {Real(parameters_.bulk_modulus), thickness_, Real(parameters_.minimum_pressure)};
     }
 
-    pore_table<Real> pores_;
-    throat_table<Real> throats_;
-    corner_rows<Real> corners_;
+    pore_table<Real, Dim> pores_;
+    throat_table<Real, Dim> throats_;
+    corner_rows<Real, Dim> corners_;
     std::vector<pore_sums<Real>> pore_sums_;
     std::vector<throat_sums<Real>> throat_sums_;
 };

@@ -35,7 +35,7 @@ struct on_side {
     }
 };
 
-/// Choice of boundary throats: those between two particles that both are chosen, the loaded ones for instance.
+/// Choice of boundary throats: those between particles that all are chosen, the loaded ones for instance.
 struct between_chosen {
     std::vector<std::uint8_t> chosen; ///< per particle, 1 or 0; particles beyond its end are not
     template <class Real, int Dim>
@@ -62,7 +62,7 @@ boundary_rule<Choice> reservoir(std::string name, Choice choice, double pressure
 }
 
 /// A rate [m^3/s], negative to take fluid out, into the pores at the throats chosen, which stay sealed: shared out by
-/// the distance between the throats' particles.
+/// the distance between the throats' particles (in space by the throats' areas).
 /// \param choice callable boundary_throat -> bool
 template <class Choice>
 boundary_rule<Choice> injection(std::string name, Choice choice, double rate) {
@@ -108,19 +108,20 @@ boundary_rules<Choices...> flow_boundaries(boundary_rule<Choices>... rules) {
     return boundary_rules<Choices...>(std::move(rules)...);
 }
 
-/// The pore whose triangle contains a point, else the one whose middle is nearest.
+/// The pore whose triangle or tetrahedron contains a point, else the one whose middle is nearest.
 /// \throws std::invalid_argument for a network without pores or particles, a point that is not finite.
-template <class Real>
-std::size_t find_pore(pore_network<Real, 2> const& net, points_view<Real, 2> points, vec<Real, 2> const& at) {
+template <class Real, int Dim>
+std::size_t find_pore(pore_network<Real, Dim> const& net, points_view<Real, Dim> points, vec<Real, Dim> const& at) {
     if (net.bare() || net.pores() == 0) refuse("network", "bare or empty", "one of pores between particles");
-    for (int axis = 0; axis < 2; ++axis) require_finite("point", double(at[axis]));
+    for (int axis = 0; axis < Dim; ++axis) require_finite("point", double(at[axis]));
     std::size_t nearest = 0;
     Real least = std::numeric_limits<Real>::infinity();
     for (std::size_t p = 0; p < net.pores(); ++p) {
-        auto const corner = [&](std::size_t c) { return points[std::size_t(net.corner[c][p])]; };
+        typename pore_mesh<Dim>::simplex simplex;
+        for (std::size_t c = 0; c < simplex.size(); ++c) simplex[c] = net.corner[c][p];
         bool inside = true;
-        for (std::size_t c = 0; c < 3; ++c)
-            inside = inside && cross(corner((c + 1) % 3) - corner(c), at - corner(c)) >= Real(0);
+        for (std::size_t c = 0; c < simplex.size(); ++c)
+            inside = inside && detail::height_within<Real, Dim>(detail::side_of(simplex, c), points, at) >= Real(0);
         if (inside) return p;
         Real const apart = squared_norm(pore_middle(net, p, points) - at);
         if (apart < least) {
@@ -152,9 +153,9 @@ template <class Real, int Dim>
 std::size_t inject(pore_network<Real, Dim>& net, std::string name, std::size_t pore, double rate) {
     return detail::add_source(net, std::move(name), flow_source_kind::rate, rate, pore);
 }
-template <class Real>
-std::size_t inject_at(pore_network<Real, 2>& net, points_view<Real, 2> points, std::string name,
-                      vec<Real, 2> const& at, double rate) {
+template <class Real, int Dim>
+std::size_t inject_at(pore_network<Real, Dim>& net, points_view<Real, Dim> points, std::string name,
+                      vec<Real, Dim> const& at, double rate) {
     return inject(net, std::move(name), find_pore(net, points, at), rate);
 }
 /// Holds the pressure of a pore, Pa.
@@ -162,9 +163,9 @@ template <class Real, int Dim>
 std::size_t hold_pressure(pore_network<Real, Dim>& net, std::string name, std::size_t pore, double pressure) {
     return detail::add_source(net, std::move(name), flow_source_kind::pressure, pressure, pore);
 }
-template <class Real>
-std::size_t hold_pressure_at(pore_network<Real, 2>& net, points_view<Real, 2> points, std::string name,
-                             vec<Real, 2> const& at, double pressure) {
+template <class Real, int Dim>
+std::size_t hold_pressure_at(pore_network<Real, Dim>& net, points_view<Real, Dim> points, std::string name,
+                             vec<Real, Dim> const& at, double pressure) {
     return hold_pressure(net, std::move(name), find_pore(net, points, at), pressure);
 }
 /// \}
@@ -172,8 +173,8 @@ std::size_t hold_pressure_at(pore_network<Real, 2>& net, points_view<Real, 2> po
 /// Pressures to begin with, on top of which a solver puts its `initial_pressure`.
 /// \param pressure callable point in the middle of the pore [m] -> Pa
 /// \throws std::invalid_argument for a pressure that is not finite.
-template <class Real, class Pressure>
-void set_pressures(pore_network<Real, 2>& net, points_view<Real, 2> points, Pressure const& pressure) {
+template <class Real, int Dim, class Pressure>
+void set_pressures(pore_network<Real, Dim>& net, points_view<Real, Dim> points, Pressure const& pressure) {
     for (std::size_t p = 0; p < net.pores(); ++p) {
         auto const value = Real(pressure(pore_middle(net, p, points)));
         require_finite("initial pressure of pore " + std::to_string(p), double(value));

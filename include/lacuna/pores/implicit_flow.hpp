@@ -77,8 +77,9 @@ public:
     /// \throws std::invalid_argument for parameters out of range.
     implicit_flow_solver(parameters const& p, network_type network) : base(p, std::move(network)) { prepare(); }
 
-    /// Pores of a body, at its present geometry and the apertures of pairs at zero force that touch.
-    /// \param thickness of the body, out of the plane, m; > 0
+    /// Pores of a body, at its present geometry and the apertures of pairs at zero force that touch (in space: pairs at
+    /// zero force where they are).
+    /// \param thickness of the body, out of the plane, m; > 0; in space 1
     /// \param points centres, m; \param radii m: of all particles
     /// \throws std::invalid_argument for parameters out of range.
     implicit_flow_solver(parameters const& p, network_type network, Real thickness, points_view<Real, Dim> points,
@@ -100,7 +101,7 @@ public:
     /// step of 0 s pressures follow the volumes, and nothing flows.
     /// \tparam WithLedger also keeps ledger()
     template <bool WithLedger>
-    void step(record_column<Real> const& place, Real const* pair_forces, Real dt, int threads = 1) {
+    void step(body_column<Real> const& place, Real const* pair_forces, Real dt, int threads = 1) {
         if (this->network_.bare()) return advance<WithLedger>(dt, threads);
         this->template begin_step<WithLedger>();
         bool const flowing = this->flows() && dt > Real(0);

@@ -22,11 +22,11 @@ namespace lacuna {
 /// the threshold since the last. Throats to reservoirs and pores that a flow_source acts on do not merge.
 ///
 /// Not in parallel: the same bits for any number of threads. Allocates no memory after build().
-template <class Real>
+template <class Real, int Dim = 2>
 class pore_clusters {
 public:
     /// \param threshold conductance above which a throat joins its pores, m^3/(s Pa); > 0, infinity for none
-    void build(pore_network<Real, 2> const& net, double threshold) {
+    void build(pore_network<Real, Dim> const& net, double threshold) {
         threshold_ = Real(threshold);
         if (!on()) return;
         std::size_t const pores = net.pores();
@@ -53,7 +53,7 @@ public:
     std::size_t label(std::size_t pore) const noexcept { return on() ? std::size_t(label_[pore]) : pore; }
 
     /// Forms the clusters anew if a conductance has crossed the threshold.
-    void update(pore_network<Real, 2> const& net) noexcept {
+    void update(pore_network<Real, Dim> const& net) noexcept {
         if (!on()) return;
         for (std::size_t t = 0; t < net.interior_throats; ++t)
             if (joins(net, t) != (joined_[t] != 0)) return form(net);
@@ -61,7 +61,7 @@ public:
 
     /// Mixes the fluid of pores that have joined since the last call.
     /// \return energy lost by that, J, >= 0 but for rounding
-    Real settle(pore_network<Real, 2>& net, pore_constants<Real> const& fluid) noexcept {
+    Real settle(pore_network<Real, Dim>& net, pore_constants<Real> const& fluid) noexcept {
         if (!unsettled_) return Real(0);
         unsettled_ = false;
         Real lost(0);
@@ -81,7 +81,7 @@ public:
     }
 
     /// To be called before the pass over the pores, when the ledger is kept.
-    void remember(pore_network<Real, 2> const& net) noexcept {
+    void remember(pore_network<Real, Dim> const& net) noexcept {
         for (std::size_t k = 0; k < members_.size(); ++k) {
             auto const p = std::size_t(members_[k]);
             before_[k] = {net.pressure[p], net.old_volume[p], net.vapour[p]};
@@ -91,7 +91,7 @@ public:
     /// After the pass over the pores: one pressure in each cluster.
     /// \param sums of the pass, which this corrects if WithLedger
     template <bool WithLedger>
-    void equalise(pore_network<Real, 2>& net, pore_constants<Real> const& fluid, pore_sums<Real>& sums) noexcept {
+    void equalise(pore_network<Real, Dim>& net, pore_constants<Real> const& fluid, pore_sums<Real>& sums) noexcept {
         Real const half(0.5);
         for (std::size_t c = 0; c < clusters(); ++c)
             mix(net, fluid, c, [&](std::size_t k, Real pressure, Real vapour) {
@@ -111,7 +111,7 @@ public:
     }
 
     /// flow_critical_time_step() of the clusters: flow within them needs none.
-    Real critical_time_step(pore_network<Real, 2> const& net, double bulk_modulus) const noexcept {
+    Real critical_time_step(pore_network<Real, Dim> const& net, double bulk_modulus) const noexcept {
         double limit = std::numeric_limits<double>::infinity();
         auto const outflow = [&](std::size_t p) {
             double sum = 0;
@@ -146,7 +146,7 @@ private:
         Real pressure, volume, vapour;
     };
 
-    bool joins(pore_network<Real, 2> const& net, std::size_t t) const noexcept {
+    bool joins(pore_network<Real, Dim> const& net, std::size_t t) const noexcept {
         return net.conductance[t] > threshold_ && !apart_[std::size_t(net.throat_pore[0][t])] &&
                !apart_[std::size_t(net.throat_pore[1][t])];
     }
@@ -161,7 +161,7 @@ private:
     }
 
     /// Union-find over the throats, the lowest number as root; then the members of each cluster, in ascending order.
-    void form(pore_network<Real, 2> const& net) noexcept {
+    void form(pore_network<Real, Dim> const& net) noexcept {
         unsettled_ = true;
         std::size_t const pores = net.pores();
         for (std::size_t p = 0; p < pores; ++p) label_[p] = std::int32_t(p);
@@ -190,7 +190,7 @@ private:
     }
 
     /// Energy stored in a cluster, J.
-    Real stored(pore_network<Real, 2> const& net, pore_constants<Real> const& fluid, std::size_t c) const noexcept {
+    Real stored(pore_network<Real, Dim> const& net, pore_constants<Real> const& fluid, std::size_t c) const noexcept {
         Real sum(0);
         for (auto k = first_[c]; k < first_[c + 1]; ++k) {
             auto const p = std::size_t(members_[std::size_t(k)]);
@@ -202,7 +202,7 @@ private:
     /// Gives the pores of cluster c one pressure; what liquid does not fill is spread evenly.
     /// \param look called with (place among the members, new pressure, new vapour) before the network has them
     template <class Look>
-    void mix(pore_network<Real, 2>& net, pore_constants<Real> const& fluid, std::size_t c, Look const& look) noexcept {
+    void mix(pore_network<Real, Dim>& net, pore_constants<Real> const& fluid, std::size_t c, Look const& look) noexcept {
         Real volume(0), content(0), vapour(0);
         for (auto k = first_[c]; k < first_[c + 1]; ++k) {
             auto const p = std::size_t(members_[std::size_t(k)]);

@@ -14,6 +14,7 @@
 #include <lacuna/core/error.hpp>
 #include <lacuna/core/points.hpp>
 #include <lacuna/pores/geometry.hpp>
+#include <lacuna/pores/geometry_space.hpp>
 
 namespace lacuna {
 
@@ -77,6 +78,47 @@ std::array<std::int32_t, Count - 1> side_of(std::array<std::int32_t, Count> cons
     for (std::size_t c = 0; c + 1 < Count; ++c) side[c] = simplex[c < corner ? c : c + 1];
     if (corner % 2 == 1) std::swap(side[Count - 3], side[Count - 2]);
     return side;
+}
+
+/// What least volumes go by: see pore_network::size.
+template <class Real, std::size_t Corners, int Dim = int(Corners) - 1>
+Real reference_size(std::array<std::int32_t, Corners> const& s, points_view<Real, Dim> points, Real const* radii) {
+    Real const own = simplex_size(s, points);
+    if constexpr (Dim == 2) return own;
+    Real least = radii[std::size_t(s[0])];
+    for (auto const i : s) least = min(least, radii[std::size_t(i)]);
+    // Of edge 2 r: (2 r)^3 / (6 sqrt 2). Without it a flat tetrahedron would be a pore of any stiffness.
+    return max(own, Real(0.9428090415820634) * least * least * least);
+}
+
+/// A side of a simplex as seen from inside: its particles as side_of() has them.
+template <class Real, int Dim>
+struct outer_side {
+    vec<Real, Dim> middle, normal; ///< m; of unit length, outwards
+    Real size;                     ///< m^(Dim - 1)
+};
+template <class Real, int Dim>
+outer_side<Real, Dim> look_outwards(std::array<std::int32_t, std::size_t(Dim)> const& side,
+                                    points_view<Real, Dim> points) {
+    auto const x = [&](std::size_t c) { return points[std::size_t(side[c])]; };
+    if constexpr (Dim == 2) {
+        auto const along = x(1) - x(0);
+        return {(x(0) + x(1)) * Real(0.5), perpendicular(-along) / norm(along), norm(along)};
+    } else {
+        auto const across = cross(x(1) - x(0), x(2) - x(0));
+        return {(x(0) + x(1) + x(2)) / Real(3), across / norm(across), norm(across) / Real(2)};
+    }
+}
+
+/// How far a point is within a side that side_of() gave, times the side's size: positive on the simplex's side.
+template <class Real, int Dim>
+Real height_within(std::array<std::int32_t, std::size_t(Dim)> const& side, points_view<Real, Dim> points,
+                   vec<Real, Dim> const& at) {
+    auto const x = [&](std::size_t c) { return points[std::size_t(side[c])]; };
+    if constexpr (Dim == 2)
+        return cross(x(1) - x(0), at - x(0));
+    else
+        return -dot(cross(x(1) - x(0), x(2) - x(0)), at - x(0));
 }
 
 /// Sorts the simplices and finds who lies across each side.

@@ -12,48 +12,15 @@
 
 #include <lacuna/core/error.hpp>
 #include <lacuna/core/points.hpp>
+#include <lacuna/pores/boundary_throat.hpp>
 #include <lacuna/pores/flow_source.hpp>
 #include <lacuna/pores/mesh.hpp>
 #include <lacuna/pores/padded_array.hpp>
 
 namespace lacuna {
 
-/// What lies behind a throat on the boundary of the body: nothing that fluid passes, or a reservoir.
-enum class boundary_kind : std::uint8_t { sealed, drained };
-
 /// Where a pore lies: within the body, or at its boundary; drained when at least one of its throats is.
 enum class pore_place : std::uint8_t { interior, sealed, drained };
-
-/// Side of the body's bounding box that a boundary throat is nearest to.
-enum class body_side : std::uint8_t { left, right, bottom, top };
-
-/// What a selection of boundaries answers for one throat. A reservoir takes and gives fluid; it does not press on
-/// the body's outside (that is a load).
-template <class Real>
-struct throat_boundary {
-    boundary_kind kind = boundary_kind::sealed;
-    Real pressure = Real(0); ///< of the reservoir behind a drained throat, Pa
-    /// Number of the flow_source: the reservoir behind a drained throat, or a rate that is fed into the pore at a
-    /// sealed one. Without, drained throats belong to a source of their own, "drained".
-    std::int32_t source = -1;
-};
-
-/// What a selection of boundaries is told about one throat.
-template <class Real, int Dim>
-struct boundary_throat {
-    std::array<std::int32_t, std::size_t(Dim)> particles;
-    vec<Real, Dim> middle;  ///< between the two particles' centres, m
-    vec<Real, Dim> outward; ///< unit normal, out of the body
-    body_side side;
-};
-
-/// The default selection: fluid stays in the body.
-struct all_sealed {
-    template <class Real, int Dim>
-    throat_boundary<Real> operator()(boundary_throat<Real, Dim> const&) const {
-        return {};
-    }
-};
 
 /// A throat given by hand: between two pores, or from one pore to a reservoir (second = -1).
 template <class Real>
@@ -65,7 +32,7 @@ struct bare_throat {
 };
 
 /// Rows of a sparse table: entries first[i] to first[i + 1] belong to i. An entry 2 * throat + side says that i is
-/// at side 0 or 1 of the throat.
+/// at side 0 or 1 of the throat (a particle in space: 3 * throat + side, 0 to 2).
 struct incidence {
     std::vector<std::int32_t> first{0};
     std::vector<std::int32_t> entry;
@@ -73,19 +40,23 @@ struct incidence {
 
 /// Pores and throats of a body, one array per quantity (structure of arrays).
 ///
-/// A throat's pores are [0] to the left of the line from particle [0] to particle [1], and [1] to its right, -1
-/// where the body ends. Throats come in the order interior, drained, sealed. In a bare network the particles are -1.
+/// A throat lies between two particles in the plane, three in space. Its pores are [0] to the left of the line from
+/// particle [0] to particle [1] (in space: the one from whose outside the particles turn counter-clockwise), and [1] on
+/// its other side, -1 where the body ends. Throats come in the order interior, drained, sealed. In a bare network the
+/// particles are -1.
 template <class Real, int Dim>
 struct pore_network {
     std::array<std::vector<std::int32_t>, std::size_t(Dim) + 1> corner; ///< particles around a pore; empty when bare
-    std::vector<Real> size;        ///< of a pore's simplex at build time, m^Dim; empty when bare
+    /// What a pore's least volume is a share of, m^Dim: its simplex at build time, in space not less than the regular
+    /// tetrahedron on the smallest of its spheres; empty when bare.
+    std::vector<Real> size;
     padded_array<Real> volume;     ///< V_p, m^3
     padded_array<Real> old_volume; ///< V_p when the pressure was last advanced, m^3
     padded_array<Real> pressure;   ///< Pa
     padded_array<Real> vapour;     ///< part of the volume that is void of liquid, at the minimum pressure, m^3
     std::vector<pore_place> place;
 
-    std::array<std::vector<std::int32_t>, 2> throat_particle;
+    std::array<std::vector<std::int32_t>, std::size_t(Dim)> throat_particle;
     std::array<std::vector<std::int32_t>, 2> throat_pore;
     std::vector<Real> length;              ///< l, m
     padded_array<Real> aperture;           ///< a, m
@@ -119,22 +90,24 @@ struct pore_network {
 
 namespace detail {
 
-template <class Real>
+template <class Real, int Dim>
 struct throat_record {
-    std::array<std::int32_t, 2> particle, pore;
+    std::array<std::int32_t, std::size_t(Dim)> particle;
+    std::array<std::int32_t, 2> pore;
     Real length, aperture, reservoir_pressure;
     int rank; ///< 0 interior, 1 drained, 2 sealed
     std::int32_t source = -1;
-    double width = 0; ///< of a throat on the boundary, m
+    double width = 0; ///< of a throat on the boundary, m, in space its area, m^2
 };
 
-inline incidence make_incidence(std::array<std::vector<std::int32_t>, 2> const& ends, std::size_t count) {
+template <std::size_t Sides>
+incidence make_incidence(std::array<std::vector<std::int32_t>, Sides> const& ends, std::size_t count) {
     incidence table;
     table.first.assign(count + 1, 0);
     auto const each = [&](auto&& use) {
         for (std::size_t t = 0; t < ends[0].size(); ++t)
-            for (std::size_t side = 0; side < 2; ++side)
-                if (ends[side][t] >= 0) use(std::size_t(ends[side][t]), std::int32_t(2 * t + side));
+            for (std::size_t side = 0; side < Sides; ++side)
+                if (ends[side][t] >= 0) use(std::size_t(ends[side][t]), std::int32_t(Sides * t + side));
     };
     each([&](std::size_t i, std::int32_t) { ++table.first[i + 1]; });
     for (std::size_t i = 0; i < count; ++i) table.first[i + 1] += table.first[i];
@@ -146,7 +119,7 @@ inline incidence make_incidence(std::array<std::vector<std::int32_t>, 2> const& 
 
 /// Fills in the throats, and the arrays that every network has.
 template <class Real, int Dim>
-void finish(pore_network<Real, Dim>& net, std::vector<throat_record<Real>> records, std::size_t particles) {
+void finish(pore_network<Real, Dim>& net, std::vector<throat_record<Real, Dim>> records, std::size_t particles) {
     std::stable_sort(records.begin(), records.end(),
                      [](auto const& a, auto const& b) { return a.rank < b.rank; });
     std::size_t const pores = net.volume.size();
@@ -155,10 +128,9 @@ void finish(pore_network<Real, Dim>& net, std::vector<throat_record<Real>> recor
     net.vapour.assign(pores, Real(0));
     net.place.assign(pores, pore_place::interior);
     for (auto const& r : records) {
-        for (std::size_t side = 0; side < 2; ++side) {
+        for (std::size_t side = 0; side < r.particle.size(); ++side)
             net.throat_particle[side].push_back(r.particle[side]);
-            net.throat_pore[side].push_back(r.pore[side]);
-        }
+        for (std::size_t side = 0; side < 2; ++side) net.throat_pore[side].push_back(r.pore[side]);
         net.length.push_back(r.length);
         auto& place = net.place[std::size_t(r.pore[0])];
         if (r.rank == 1) place = pore_place::drained;
@@ -182,7 +154,8 @@ void finish(pore_network<Real, Dim>& net, std::vector<throat_record<Real>> recor
 
 } // namespace detail
 
-/// The pores and throats of a body: each triangle a pore, each edge a throat of length r_i + r_j. Volumes and
+/// The pores and throats of a body. In the plane each triangle is a pore, each edge a throat of length r_i + r_j; in space
+/// each tetrahedron is a pore, each facet a throat, as long as the mean of r_i + r_j over its three edges. Volumes and
 /// apertures are left at 0 for the flow solver to fill in.
 ///
 /// \param mesh from triangulate_body()
@@ -191,52 +164,47 @@ void finish(pore_network<Real, Dim>& net, std::vector<throat_record<Real>> recor
 ///        member sources() returns, if it has one, becomes the network's `sources` (see flow_boundaries())
 /// \throws std::invalid_argument for a corner that is no particle, a radius or a pressure out of range, a source that
 ///         acts on no throat.
-template <class Real, class Boundary = all_sealed>
-pore_network<Real, 2> make_pore_network(pore_mesh<2> const& mesh, points_view<Real, 2> points, Real const* radii,
-                                        Boundary const& boundary = {}) {
-    pore_network<Real, 2> net;
+template <class Real, int Dim, class Boundary = all_sealed>
+pore_network<Real, Dim> make_pore_network(pore_mesh<Dim> const& mesh, points_view<Real, Dim> points, Real const* radii,
+                                          Boundary const& boundary = {}) {
+    pore_network<Real, Dim> net;
     net.volume.assign(mesh.size(), Real(0));
-    vec<Real, 2> low{}, high{};
+    vec<Real, Dim> low{}, high{};
     for (std::size_t t = 0; t < mesh.size(); ++t)
-        for (std::size_t c = 0; c < 3; ++c) {
+        for (std::size_t c = 0; c <= Dim; ++c) {
             auto const i = mesh.simplices[t][c];
             if (i < 0 || std::size_t(i) >= points.size())
-                refuse("corner of triangle " + std::to_string(t), std::to_string(i), "the number of a particle");
+                refuse((Dim == 2 ? "corner of triangle " : "corner of tetrahedron ") + std::to_string(t), std::to_string(i),
+                       "the number of a particle");
             require_positive("radius of particle " + std::to_string(i), double(radii[i]));
             net.corner[c].push_back(i);
             auto const x = points[std::size_t(i)];
-            for (int axis = 0; axis < 2; ++axis) {
+            for (int axis = 0; axis < Dim; ++axis) {
                 low[axis] = t + c == 0 ? x[axis] : min(low[axis], x[axis]);
                 high[axis] = t + c == 0 ? x[axis] : max(high[axis], x[axis]);
             }
         }
-    std::vector<detail::throat_record<Real>> records;
+    std::vector<detail::throat_record<Real, Dim>> records;
     for (std::size_t t = 0; t < mesh.size(); ++t) {
         auto const& corners = mesh.simplices[t];
-        net.size.push_back(triangle_area(points[std::size_t(corners[0])], points[std::size_t(corners[1])],
-                                         points[std::size_t(corners[2])]));
-        for (std::size_t c = 0; c < 3; ++c) {
+        net.size.push_back(detail::reference_size(corners, points, radii));
+        for (std::size_t c = 0; c <= Dim; ++c) {
             auto const other = mesh.neighbours[t][c];
             if (other >= 0 && std::size_t(other) < t) continue;
-            auto const i = corners[(c + 1) % 3], j = corners[(c + 2) % 3];
+            auto const around = detail::side_of(corners, c);
+            Real length(0);
+            for (auto const i : around) length += radii[i];
             throat_boundary<Real> end;
             double width = 0;
             if (other < 0) {
-                auto const along = points[std::size_t(j)] - points[std::size_t(i)];
-                auto const outward = perpendicular(-along) / norm(along);
-                auto const middle = (points[std::size_t(i)] + points[std::size_t(j)]) * Real(0.5);
-                // At a corner of the body, where two sides are equally near, the one the throat faces.
-                Real const near[4] = {middle[0] - low[0], high[0] - middle[0], middle[1] - low[1], high[1] - middle[1]};
-                Real const faces[4] = {-outward[0], outward[0], -outward[1], outward[1]};
-                int side = 0;
-                for (int s = 1; s < 4; ++s)
-                    if (near[s] < near[side] || (near[s] == near[side] && faces[s] > faces[side])) side = s;
-                end = boundary(boundary_throat<Real, 2>{{i, j}, middle, outward, body_side(side)});
+                auto const side = detail::look_outwards(around, points);
+                end = boundary(boundary_throat<Real, Dim>{
+                    around, side.middle, side.normal, detail::nearest_side(side.middle, side.normal, low, high)});
                 require_finite("reservoir pressure", double(end.pressure));
-                width = double(norm(along));
+                width = double(side.size);
             }
             int const rank = other >= 0 ? 0 : end.kind == boundary_kind::drained ? 1 : 2;
-            records.push_back({{i, j}, {std::int32_t(t), other}, radii[i] + radii[j], Real(0), end.pressure, rank,
+            records.push_back({around, {std::int32_t(t), other}, length * Real(2.0 / Dim), Real(0), end.pressure, rank,
                                end.source, width});
         }
     }
@@ -256,7 +224,7 @@ pore_network<Real, Dim> make_bare_network(std::vector<Real> const& volumes,
     for (std::size_t p = 0; p < volumes.size(); ++p)
         require_positive("volume of pore " + std::to_string(p), double(volumes[p]));
     net.volume = padded_array<Real>(volumes);
-    std::vector<detail::throat_record<Real>> records;
+    std::vector<detail::throat_record<Real, Dim>> records;
     for (std::size_t t = 0; t < throats.size(); ++t) {
         auto const& one = throats[t];
         std::string const name = "throat " + std::to_string(t);
@@ -267,7 +235,9 @@ pore_network<Real, Dim> make_bare_network(std::vector<Real> const& volumes,
         require_positive(name + ".length", double(one.length));
         require_positive(name + ".aperture", double(one.aperture));
         require_finite(name + ".reservoir_pressure", double(one.reservoir_pressure));
-        records.push_back({{-1, -1}, {one.first, one.second}, one.length, one.aperture, one.reservoir_pressure,
+        std::array<std::int32_t, std::size_t(Dim)> nobody;
+        nobody.fill(-1);
+        records.push_back({nobody, {one.first, one.second}, one.length, one.aperture, one.reservoir_pressure,
                            one.second < 0 ? 1 : 0, one.source, 1.0});
     }
     net.sources = std::move(sources);

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <type_traits>
 #include <vector>
 
 #include <lacuna/core/pack.hpp>
@@ -13,6 +14,7 @@
 #include <lacuna/core/records.hpp>
 #include <lacuna/pores/flow_sums.hpp>
 #include <lacuna/pores/geometry.hpp>
+#include <lacuna/pores/geometry_space.hpp>
 #include <lacuna/pores/pack_access.hpp>
 #include <lacuna/pores/pore_network.hpp>
 
@@ -21,14 +23,13 @@
 
 namespace lacuna {
 
-/// Records of particles as particle_store has them, as far as pores read them: {x, y, -, radius}, m.
-template <class Real>
-record_column<Real> particle_records(points_view<Real, 2> points, Real const* radii) {
-    record_column<Real> place;
+/// Particles as particle_store has them, as far as pores read them: {x, y, -, radius}, in space {x, y, z, radius}, m.
+template <class Real, int Dim>
+body_column<Real> particle_records(points_view<Real, Dim> points, Real const* radii) {
+    body_column<Real> place;
     place.resize(points.size());
     for (std::size_t k = 0; k < points.size(); ++k) {
-        place.at(k, 0) = points(k, 0);
-        place.at(k, 1) = points(k, 1);
+        for (int axis = 0; axis < Dim; ++axis) place.at(k, axis) = points(k, axis);
         place.at(k, 3) = radii[k];
     }
     return place;
@@ -37,15 +38,18 @@ record_column<Real> particle_records(points_view<Real, 2> points, Real const* ra
 /// What the pass reads and writes besides the network: where the corners' records begin, least volumes, the throats
 /// of each pore, and the forces on the corners. Whole packs; the last pore fills up the last one, with a least volume
 /// that no pore has: its volume and pressure never change, so it adds nothing to any sum.
-template <class Real>
+template <class Real, int Dim>
 class pore_table {
 public:
     static constexpr int width = native_width<Real>;
+    static constexpr std::size_t corners = std::size_t(Dim) + 1;
+    /// Reals of the force on a corner: a pair, in space a record with a 0 at its end.
+    static constexpr std::size_t force_reals = Dim == 2 ? 2 : 4;
     /// Packs that one thread handles at a time.
     static constexpr std::size_t chunk_packs = 128;
 
     /// \param minimum_share least volume of a pore as a share of its size at build time, times the thickness, m
-    void build(pore_network<Real, 2>& net, Real minimum_share) {
+    void build(pore_network<Real, Dim>& net, Real minimum_share) {
         std::size_t const count = net.pores();
         packs_ = (count + width - 1) / width;
         std::size_t const slots = packs_ * width;
@@ -53,11 +57,11 @@ public:
         floor_.assign(slots, filler_volume);
         before_.assign(slots, Real(0));
         if (!net.bare()) {
-            force_.assign(6 * slots + 2, Real(0));
-            for (std::size_t c = 0; c < 3; ++c) {
+            force_.assign((corners * slots + 1) * force_reals, Real(0));
+            for (std::size_t c = 0; c < corners; ++c) {
                 corner_[c].assign(slots, 0);
                 for (std::size_t p = 0; p < slots; ++p)
-                    corner_[c][p] = 4 * std::uint32_t(net.corner[c][std::min(p, count - 1)]);
+                    corner_[c][p] = std::uint32_t(body_column<Real>::stride) * std::uint32_t(net.corner[c][std::min(p, count - 1)]);
             }
             for (std::size_t p = 0; p < count; ++p) floor_[p] = minimum_share * net.size[p];
         }
@@ -76,7 +80,7 @@ public:
     }
 
     /// Gives what fills up the last pack its values; for a network that comes from elsewhere.
-    static void set_fillers(pore_network<Real, 2>& net) noexcept {
+    static void set_fillers(pore_network<Real, Dim>& net) noexcept {
         net.volume.set_fillers(filler_volume);
         net.old_volume.set_fillers(filler_volume);
         net.pressure.set_fillers(Real(0));
@@ -86,32 +90,28 @@ public:
     int chunks() const noexcept { return int((packs_ + chunk_packs - 1) / chunk_packs); }
     /// Calls visit(particle, where the force on it stands in forces()) for every corner of every pore.
     template <class Visit>
-    void for_each_corner(pore_network<Real, 2> const& net, Visit const& visit) const {
+    void for_each_corner(pore_network<Real, Dim> const& net, Visit const& visit) const {
         if (net.bare()) return;
         for (std::size_t p = 0; p < net.pores(); ++p)
-            for (std::size_t c = 0; c < 3; ++c)
-                visit(std::size_t(net.corner[c][p]), std::uint32_t(((p / width * 3 + c) * width + p % width) * 2));
+            for (std::size_t c = 0; c < corners; ++c) visit(std::size_t(net.corner[c][p]), std::uint32_t(place_of(p, c)));
     }
-    /// Where two zeros stand in forces().
-    std::uint32_t zero_offset() const noexcept { return std::uint32_t(6 * packs_ * width); }
-    /// Forces on the corners, two components each, N.
+    /// Where the zeros of a force that is none stand in forces().
+    std::uint32_t zero_offset() const noexcept { return std::uint32_t(corners * packs_ * width * force_reals); }
+    /// Forces on the corners, force_reals numbers each, N.
     Real const* forces() const noexcept { return force_.data(); }
     /// Pressures before the last step that kept the ledger, Pa.
     Real const* pressure_before() const noexcept { return before_.data(); }
 
     /// Measures the pores of one chunk anew: their volumes, and the forces on their corners for 1 Pa.
-    [[gnu::noinline, gnu::flatten]] void measure(int chunk, pore_network<Real, 2>& net, Real const* place,
+    [[gnu::noinline, gnu::flatten]] void measure(int chunk, pore_network<Real, Dim>& net, Real const* place,
                                                  Real body_thickness) noexcept {
         using lanes = pack<Real, width>;
         lanes thickness(body_thickness), zero(Real(0));
         std::size_t const first = std::size_t(chunk) * chunk_packs, end = std::min(first + chunk_packs, packs_);
         for (std::size_t p = first; p < end; ++p) {
             std::size_t const slot = p * width;
-            auto a = load_turned<Real, width>(place, corner_[0].data() + slot);
-            auto b = load_turned<Real, width>(place, corner_[1].data() + slot);
-            auto c = load_turned<Real, width>(place, corner_[2].data() + slot);
-            auto shape = measure_pore<lanes>({{a[0], a[1]}}, {{b[0], b[1]}}, {{c[0], c[1]}}, a[3], b[3], c[3]);
-            lanes free_volume = shape.void_area * thickness, floor = lanes::load(floor_.data() + slot);
+            auto shape = measure_pack(place, slot);
+            lanes free_volume = volume_of(shape) * thickness, floor = lanes::load(floor_.data() + slot);
             lanes exerts = select(free_volume > floor, thickness, zero);
             max(free_volume, floor).store(net.volume.data() + slot);
             store_forces(slot, shape, exerts);
@@ -119,37 +119,34 @@ public:
     }
 
     /// Turns the forces for 1 Pa, as measure() left them, into those of the pressures.
-    [[gnu::noinline, gnu::flatten]] void press(int chunk, pore_network<Real, 2> const& net) noexcept {
+    [[gnu::noinline, gnu::flatten]] void press(int chunk, pore_network<Real, Dim> const& net) noexcept {
         using lanes = pack<Real, width>;
         std::size_t const first = std::size_t(chunk) * chunk_packs, end = std::min(first + chunk_packs, packs_);
         for (std::size_t p = first; p < end; ++p) {
             lanes pressure = lanes::load(net.pressure.data() + p * width);
-            for (std::size_t c = 0; c < 3; ++c) {
-                Real* to = force_.data() + (3 * p + c) * 2 * width;
-                for (int k = 0; k < width; ++k) {
-                    to[2 * k] *= pressure[k];
-                    to[2 * k + 1] *= pressure[k];
-                }
+            for (std::size_t c = 0; c < corners; ++c) {
+                Real* to = force_.data() + (corners * p + c) * force_reals * width;
+                for (int k = 0; k < width; ++k, to += force_reals)
+                    for (int axis = 0; axis < Dim; ++axis) to[axis] *= pressure[k];
             }
         }
     }
 
     /// Writes the forces of one pore, whose pressure has changed since the pass.
-    void press_one(std::size_t pore, pore_network<Real, 2> const& net, Real const* place,
+    void press_one(std::size_t pore, pore_network<Real, Dim> const& net, Real const* place,
                    Real body_thickness) noexcept {
-        std::array<vec<Real, 2>, 3> x;
-        std::array<Real, 3> r;
-        for (std::size_t c = 0; c < 3; ++c) {
+        std::array<vec<Real, Dim>, corners> x;
+        std::array<Real, corners> r;
+        for (std::size_t c = 0; c < corners; ++c) {
             Real const* at = place + corner_[c][pore];
-            x[c] = {at[0], at[1]};
+            for (int axis = 0; axis < Dim; ++axis) x[c][axis] = at[axis];
             r[c] = at[3];
         }
-        auto const shape = measure_pore<Real>(x[0], x[1], x[2], r[0], r[1], r[2]);
+        auto const shape = measure_simplex(x, r);
         Real const push = net.volume[pore] > floor_[pore] ? net.pressure[pore] * body_thickness : Real(0);
-        for (std::size_t c = 0; c < 3; ++c) {
-            Real* to = force_.data() + ((pore / width * 3 + c) * width + pore % width) * 2;
-            to[0] = shape.traction[c][0] * push;
-            to[1] = shape.traction[c][1] * push;
+        for (std::size_t c = 0; c < corners; ++c) {
+            Real* to = force_.data() + place_of(pore, c);
+            for (int axis = 0; axis < Dim; ++axis) to[axis] = shape.traction[c][axis] * push;
         }
     }
 
@@ -161,7 +158,7 @@ public:
     /// \param flows whether any throat is open
     /// \param share unless Moves: how much of the way from the old volumes to the network's the pores go
     template <bool Moves, bool WithLedger>
-    [[gnu::noinline, gnu::flatten]] void advance(int chunk, pore_network<Real, 2>& net, Real const* place,
+    [[gnu::noinline, gnu::flatten]] void advance(int chunk, pore_network<Real, Dim>& net, Real const* place,
                                                  pore_constants<Real> const& fluid, Real time_step, bool flows,
                                                  [[maybe_unused]] Real share, pore_sums<Real>& sums) noexcept {
         using lanes = pack<Real, width>;
@@ -173,14 +170,11 @@ public:
         std::size_t const first = std::size_t(chunk) * chunk_packs, end = std::min(first + chunk_packs, packs_);
         for (std::size_t p = first; p < end; ++p) {
             std::size_t const slot = p * width;
-            pore_shape<lanes> shape;
+            shape_of<lanes> shape;
             lanes volume, exerts, last = lanes::load(net.old_volume.data() + slot);
             if constexpr (Moves) {
-                auto a = load_turned<Real, width>(place, corner_[0].data() + slot);
-                auto b = load_turned<Real, width>(place, corner_[1].data() + slot);
-                auto c = load_turned<Real, width>(place, corner_[2].data() + slot);
-                shape = measure_pore<lanes>({{a[0], a[1]}}, {{b[0], b[1]}}, {{c[0], c[1]}}, a[3], b[3], c[3]);
-                lanes free_volume = shape.void_area * thickness, floor = lanes::load(floor_.data() + slot);
+                shape = measure_pack(place, slot);
+                lanes free_volume = volume_of(shape) * thickness, floor = lanes::load(floor_.data() + slot);
                 volume = max(free_volume, floor);
                 exerts = select(free_volume > floor, thickness, zero);
                 volume.store(net.volume.data() + slot);
@@ -229,17 +223,55 @@ public:
     }
 
 private:
-    void store_forces(std::size_t slot, pore_shape<pack<Real, width>> const& shape,
+    template <class T>
+    using shape_of = std::conditional_t<Dim == 2, pore_shape<T>, tetrahedron_shape<T>>;
+
+    template <class T>
+    static T const& volume_of(pore_shape<T> const& shape) noexcept {
+        return shape.void_area;
+    }
+    template <class T>
+    static T const& volume_of(tetrahedron_shape<T> const& shape) noexcept {
+        return shape.void_volume;
+    }
+    /// Where the force on a corner stands.
+    static std::size_t place_of(std::size_t pore, std::size_t corner) noexcept {
+        return ((pore / width * corners + corner) * width + pore % width) * force_reals;
+    }
+
+    [[gnu::always_inline]] auto measure_pack(Real const* place, std::size_t slot) const noexcept {
+        using lanes = pack<Real, width>;
+        auto a = load_turned<Real, width>(place, corner_[0].data() + slot);
+        auto b = load_turned<Real, width>(place, corner_[1].data() + slot);
+        auto c = load_turned<Real, width>(place, corner_[2].data() + slot);
+        if constexpr (Dim == 2) {
+            return measure_pore<lanes>({{a[0], a[1]}}, {{b[0], b[1]}}, {{c[0], c[1]}}, a[3], b[3], c[3]);
+        } else {
+            auto d = load_turned<Real, width>(place, corner_[3].data() + slot);
+            return measure_pore<lanes>({{a[0], a[1], a[2]}}, {{b[0], b[1], b[2]}}, {{c[0], c[1], c[2]}},
+                                       {{d[0], d[1], d[2]}}, a[3], b[3], c[3], d[3]);
+        }
+    }
+
+    void store_forces(std::size_t slot, shape_of<pack<Real, width>> const& shape,
                       pack<Real, width> const& push) noexcept {
-        Real* to = force_.data() + 6 * slot;
-        detail::store_pairs(to, shape.traction[0][0] * push, shape.traction[0][1] * push);
-        detail::store_pairs(to + 2 * width, shape.traction[1][0] * push, shape.traction[1][1] * push);
-        detail::store_pairs(to + 4 * width, shape.traction[2][0] * push, shape.traction[2][1] * push);
+        Real* to = force_.data() + corners * force_reals * slot;
+        if constexpr (Dim == 2) {
+            detail::store_pairs(to, shape.traction[0][0] * push, shape.traction[0][1] * push);
+            detail::store_pairs(to + 2 * width, shape.traction[1][0] * push, shape.traction[1][1] * push);
+            detail::store_pairs(to + 4 * width, shape.traction[2][0] * push, shape.traction[2][1] * push);
+        } else {
+            for (std::size_t c = 0; c < corners; ++c) {
+                auto const& t = shape.traction[c];
+                store_turned<Real, width>(to + 4 * c * width,
+                                          {t[0] * push, t[1] * push, t[2] * push, pack<Real, width>(Real(0))});
+            }
+        }
     }
 
     static constexpr Real filler_volume = Real(1e30);
     std::size_t packs_ = 0, row_ = 0;
-    std::array<aligned_vector<std::uint32_t>, 3> corner_;
+    std::array<aligned_vector<std::uint32_t>, corners> corner_;
     aligned_vector<Real> floor_, before_, force_;
     // Of pack p: row_ times a throat for each pore, and whether its flow comes in (1) or goes out (-1), or is none (0).
     aligned_vector<std::int32_t> inflow_;

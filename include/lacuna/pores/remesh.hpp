@@ -11,6 +11,7 @@
 
 #include <lacuna/core/error.hpp>
 #include <lacuna/core/points.hpp>
+#include <lacuna/core/state.hpp>
 #include <lacuna/pores/geometry.hpp>
 #include <lacuna/pores/pore_network.hpp>
 
@@ -46,13 +47,7 @@ public:
     template <class ForEachPair>
     void accept(pore_network<Real, 2> const& net, points_view<Real, 2> points, Real const* radii, Real thickness,
                 Real minimum_share, ForEachPair const& for_each_pair) {
-        edges_.clear();
-        corner_.assign(points.size(), 0);
-        for (std::size_t t = 0; t < net.throats(); ++t)
-            edges_.push_back(sorted(net.throat_particle[0][t], net.throat_particle[1][t]));
-        std::sort(edges_.begin(), edges_.end());
-        for (auto const& corner : net.corner)
-            for (auto const i : corner) corner_[std::size_t(i)] = 1;
+        learn(net, points.size());
         look(net, points, radii, thickness, minimum_share, for_each_pair);
         known_.swap(found_);
     }
@@ -67,12 +62,31 @@ public:
         return turned || more;
     }
 
+    /// Writes, or reads for a mesh of `particles` particles, what a run has found so far.
+    template <class Archive>
+    void archive(Archive& ar, pore_network<Real, 2> const& net, std::size_t particles) {
+        ar(known_);
+        require_state(std::is_sorted(known_.begin(), known_.end()), "what is known of its mesh");
+        if constexpr (Archive::is_loading::value) learn(net, particles);
+    }
+
 private:
     /// Three corners of a pore that is filled, or two particles that touch, and -1.
     using fault = std::array<std::int32_t, 3>;
 
     static std::array<std::int32_t, 2> sorted(std::int32_t i, std::int32_t j) noexcept {
         return {std::min(i, j), std::max(i, j)};
+    }
+
+    /// Edges and corners of a mesh.
+    void learn(pore_network<Real, 2> const& net, std::size_t particles) {
+        edges_.clear();
+        corner_.assign(particles, 0);
+        for (std::size_t t = 0; t < net.throats(); ++t)
+            edges_.push_back(sorted(net.throat_particle[0][t], net.throat_particle[1][t]));
+        std::sort(edges_.begin(), edges_.end());
+        for (auto const& corner : net.corner)
+            for (auto const i : corner) corner_[std::size_t(i)] = 1;
     }
 
     /// Leaves the faults in found_. \return whether a triangle has turned over

@@ -11,6 +11,7 @@
 #include <lacuna/core/records.hpp>
 #include <lacuna/laws/aperture.hpp>
 #include <lacuna/pores/flow_sums.hpp>
+#include <lacuna/pores/geometry_space.hpp>
 #include <lacuna/pores/pack_access.hpp>
 #include <lacuna/pores/pore_network.hpp>
 
@@ -22,28 +23,31 @@ namespace lacuna {
 /// What the passes read besides the network: where the particles' and the pairs' records begin, the pores, the
 /// constants of the throats that fluid can pass. A pack is passed over when all of its throats are skipped; a
 /// skipped throat in another pack has both its ends in one pore.
-template <class Real>
+///
+/// A throat in space is the facet between three particles. Its aperture is the mean of what the law says of its three
+/// pairs; a law of the section (throat_section_law) sees the facet itself.
+template <class Real, int Dim>
 class throat_table {
 public:
     static constexpr int width = native_width<Real>;
+    /// Pairs of particles that a throat lies between.
+    static constexpr std::size_t pairs = Dim == 2 ? 1 : 3;
     /// Packs that one thread handles at a time.
     static constexpr std::size_t chunk_packs = 128;
 
     /// \param conductivity k of eq. 14, m/(s Pa)
-    void build(pore_network<Real, 2> const& net, Real conductivity) {
+    void build(pore_network<Real, Dim> const& net, Real conductivity) {
         std::size_t const open = net.open_throats(), packs = (open + width - 1) / width, slots = packs * width;
         interior_ = net.interior_throats;
-        for (std::size_t side = 0; side < 2; ++side) {
-            particle_[side].assign(slots, 0);
-            pore_[side].assign(slots, 0);
-        }
+        for (auto& particle : particle_) particle.assign(slots, 0);
+        for (auto& pore : pore_) pore.assign(slots, 0);
         factor_.assign(slots, Real(0));
         drained_.assign(slots, Real(0));
-        force_.assign(slots, 0);
-        paired_.assign(slots, Real(0));
+        for (auto& force : force_) force.assign(slots, 0);
+        for (auto& paired : paired_) paired.assign(slots, Real(0));
         for (std::size_t t = 0; t < std::min(slots, net.throats()); ++t) {
-            for (std::size_t side = 0; side < 2; ++side)
-                particle_[side][t] = 4 * std::uint32_t(std::max(net.throat_particle[side][t], 0));
+            for (std::size_t side = 0; side < particle_.size(); ++side)
+                particle_[side][t] = std::uint32_t(body_column<Real>::stride) * std::uint32_t(std::max(net.throat_particle[side][t], 0));
             pore_[0][t] = net.throat_pore[0][t];
             if (t >= open) continue;
             factor_[t] = conductivity / net.length[t];
@@ -54,7 +58,7 @@ public:
     }
 
     /// Takes over which throats are skipped.
-    void collect_active(pore_network<Real, 2> const& net) {
+    void collect_active(pore_network<Real, Dim> const& net) {
         active_.clear();
         throats_ = 0;
         for (std::size_t p = 0; p < every_.size(); ++p) {
@@ -74,12 +78,14 @@ public:
 
     /// \param lookup lookup(particle i, particle j): where the record of the pair's force begins, in reals; < 0 if none
     template <class Lookup>
-    void map(pore_network<Real, 2> const& net, Lookup const& lookup) {
-        for (std::size_t t = 0; t < net.open_throats(); ++t) {
-            auto const offset = std::int64_t(lookup(net.throat_particle[0][t], net.throat_particle[1][t]));
-            paired_[t] = Real(offset >= 0);
-            force_[t] = offset >= 0 ? std::uint32_t(offset) + 3 : 0;
-        }
+    void map(pore_network<Real, Dim> const& net, Lookup const& lookup) {
+        for (std::size_t t = 0; t < net.open_throats(); ++t)
+            for (std::size_t k = 0; k < pairs; ++k) {
+                auto const offset =
+                    std::int64_t(lookup(net.throat_particle[k][t], net.throat_particle[(k + 1) % std::size_t(Dim)][t]));
+                paired_[k][t] = Real(offset >= 0);
+                force_[k][t] = offset >= 0 ? std::uint32_t(offset) + 3 : 0;
+            }
     }
 
     /// Packs of a pass: those with a throat that is not skipped, or all.
@@ -93,31 +99,20 @@ public:
     /// \param place records of the particles; \param pair_forces records of the pairs' forces, the normal force in
     ///        their fourth number, at least one of them; used if Moves
     template <bool Moves, bool Flows, class Aperture>
-    [[gnu::noinline, gnu::flatten]] void pass(int chunk, pore_network<Real, 2>& net, Real const* place,
+    [[gnu::noinline, gnu::flatten]] void pass(int chunk, pore_network<Real, Dim>& net, Real const* place,
                                               Real const* pair_forces,
                                               typename Aperture::parameters const& aperture_parameters) const noexcept {
         using lanes = pack<Real, width>;
-        using rec = record<Real>;
         auto const parameters = aperture_parameters;
         auto const& list = packs(!Flows);
         Real const* pressure = net.pressure.data();
-        rec difference_and_sum(Real(-1));
-        difference_and_sum.v[3] = 1;
-        lanes zero(Real(0));
         std::size_t const first = std::size_t(chunk) * chunk_packs, end = std::min(first + chunk_packs, list.size());
         for (std::size_t n = first; n < end; ++n) {
             std::size_t const slot = std::size_t(list[n]) * width;
             lanes conductance;
             if constexpr (Moves) {
-                std::uint32_t const *i = particle_[0].data() + slot, *j = particle_[1].data() + slot;
-                auto pair = turn_records<Real, width>([&](int k) {
-                    return rec::load(place + j[k]) + rec::load(place + i[k]) * difference_and_sum;
-                });
-                lanes gap = sqrt(pair[0] * pair[0] + pair[1] * pair[1]) - pair[3];
-                lanes normal = select(lanes::load(paired_.data() + slot) > zero,
-                                      detail::gather<Real, width>(pair_forces, force_.data() + slot), zero);
-                lanes aperture = Aperture::aperture(parameters, normal, gap);
-                conductance = lanes::load(factor_.data() + slot) * (aperture * aperture * aperture);
+                auto const [aperture, opening] = open<Aperture>(slot, place, pair_forces, parameters);
+                conductance = lanes::load(factor_.data() + slot) * opening;
                 aperture.store(net.aperture.data() + slot);
                 conductance.store(net.conductance.data() + slot);
             } else {
@@ -136,7 +131,7 @@ public:
 
     /// Energies of the flows of one chunk in the step just made, with the mean of old and new pressures.
     /// \param before pressures before the step
-    [[gnu::noinline, gnu::flatten]] void add_up(int chunk, pore_network<Real, 2> const& net, Real const* before,
+    [[gnu::noinline, gnu::flatten]] void add_up(int chunk, pore_network<Real, Dim> const& net, Real const* before,
                                                 Real time_step, throat_sums<Real>& sums) const noexcept {
         using lanes = pack<Real, width>;
         lanes dissipation(Real(0)), work(Real(0)), inflow(Real(0)), gross(Real(0));
@@ -162,17 +157,65 @@ public:
     }
 
 private:
+    /// Of the throats of a pack: their apertures, m, and what their conductances are k / l times of.
+    struct opened {
+        pack<Real, width> aperture, opening;
+    };
+    template <class Aperture>
+    [[gnu::always_inline]] opened open(std::size_t slot, Real const* place, Real const* pair_forces,
+                                       typename Aperture::parameters const& parameters) const noexcept {
+        using lanes = pack<Real, width>;
+        if constexpr (throat_section_law<Aperture>) {
+            static_assert(Dim == 3, "flow: a throat has a section in space alone (Dim = 3)");
+            auto a = load_turned<Real, width>(place, particle_[0].data() + slot);
+            auto b = load_turned<Real, width>(place, particle_[1].data() + slot);
+            auto c = load_turned<Real, width>(place, particle_[2].data() + slot);
+            auto facet = measure_facet<lanes>({{a[0], a[1], a[2]}}, {{b[0], b[1], b[2]}}, {{c[0], c[1], c[2]}}, a[3],
+                                              b[3], c[3]);
+            lanes radius = max(facet.hydraulic_radius, lanes(Real(0)));
+            return {radius, Aperture::opening(parameters, facet.void_area, radius)};
+        } else {
+            lanes aperture = aperture_of_pair<Aperture>(0, slot, place, pair_forces, parameters);
+            if constexpr (pairs > 1) {
+                for (std::size_t k = 1; k < pairs; ++k)
+                    aperture += aperture_of_pair<Aperture>(k, slot, place, pair_forces, parameters);
+                aperture *= lanes(Real(1) / Real(pairs));
+            }
+            return {aperture, aperture * aperture * aperture};
+        }
+    }
+    /// By the aperture law, from the gap and the normal force of the throat's pair number k.
+    template <class Aperture>
+    [[gnu::always_inline]] pack<Real, width> aperture_of_pair(std::size_t k, std::size_t slot, Real const* place,
+                                                              Real const* pair_forces,
+                                                              typename Aperture::parameters const& p) const noexcept {
+        using lanes = pack<Real, width>;
+        using rec = record<Real>;
+        rec difference_and_sum(Real(-1));
+        difference_and_sum.v[3] = 1;
+        std::uint32_t const *i = particle_[k].data() + slot, *j = particle_[(k + 1) % std::size_t(Dim)].data() + slot;
+        auto pair = turn_records<Real, width>(
+            [&](int lane) { return rec::load(place + j[lane]) + rec::load(place + i[lane]) * difference_and_sum; });
+        lanes squared = pair[0] * pair[0] + pair[1] * pair[1];
+        if constexpr (Dim == 3) squared += pair[2] * pair[2];
+        lanes gap = sqrt(squared) - pair[3], zero(Real(0));
+        lanes normal = select(lanes::load(paired_[k].data() + slot) > zero,
+                              detail::gather<Real, width>(pair_forces, force_[k].data() + slot), zero);
+        return Aperture::aperture(p, normal, gap);
+    }
+
     auto drained(std::size_t slot) const noexcept {
         using lanes = pack<Real, width>;
         return lanes::load(drained_.data() + slot) > lanes(Real(0));
     }
 
     std::size_t interior_ = 0, throats_ = 0;
-    std::array<aligned_vector<std::uint32_t>, 2> particle_;
+    std::array<aligned_vector<std::uint32_t>, std::size_t(Dim)> particle_;
     std::array<aligned_vector<std::int32_t>, 2> pore_;
-    aligned_vector<std::uint32_t> force_;
-    aligned_vector<Real> factor_;           // k / l
-    aligned_vector<Real> drained_, paired_; // 1 or 0: to a reservoir and not skipped; with a pair
+    std::array<aligned_vector<std::uint32_t>, pairs> force_;
+    std::array<aligned_vector<Real>, pairs> paired_; // 1 or 0: there is such a pair
+    aligned_vector<Real> factor_;                    // k / l
+    aligned_vector<Real> drained_;                   // 1 or 0: to a reservoir and not skipped
     std::vector<std::int32_t> every_, active_;
 };
 

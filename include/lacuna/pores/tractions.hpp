@@ -6,21 +6,28 @@
 
 #include <lacuna/core/pack.hpp>
 #include <lacuna/core/points.hpp>
-#include <lacuna/pores/geometry.hpp>
+#include <lacuna/pores/geometry_space.hpp>
 #include <lacuna/pores/pore_network.hpp>
 
 namespace lacuna {
 
-/// Forces on the three corners of a pore for 1 Pa in it, N: the derivatives of its volume, as long as that is above its
-/// least value. Displacements u change its pressure by -K_f / V_p sum(force . u).
-/// \param net with particles, not bare; \param thickness m; \param points m; \param radii m
-template <class Real>
-std::array<vec<Real, 2>, 3> pore_tractions(pore_network<Real, 2> const& net, Real thickness, std::size_t pore,
-                                           points_view<Real, 2> points, Real const* radii) noexcept {
-    auto const corner = [&](std::size_t c) { return std::size_t(net.corner[c][pore]); };
-    std::size_t const a = corner(0), b = corner(1), c = corner(2);
-    auto const shape = measure_pore<Real>(points[a], points[b], points[c], radii[a], radii[b], radii[c]);
-    return {shape.traction[0] * thickness, shape.traction[1] * thickness, shape.traction[2] * thickness};
+/// Forces on the corners of a pore for 1 Pa in it, N: the derivatives of its volume, as long as that is above its least
+/// value. Displacements u change its pressure by -K_f / V_p sum(force . u).
+/// \param net with particles, not bare; \param thickness m, 1 in space; \param points m; \param radii m
+template <class Real, int Dim>
+std::array<vec<Real, Dim>, std::size_t(Dim) + 1> pore_tractions(pore_network<Real, Dim> const& net, Real thickness,
+                                                                std::size_t pore, points_view<Real, Dim> points,
+                                                                Real const* radii) noexcept {
+    std::array<vec<Real, Dim>, std::size_t(Dim) + 1> x, force;
+    std::array<Real, std::size_t(Dim) + 1> r;
+    for (std::size_t c = 0; c < x.size(); ++c) {
+        auto const k = std::size_t(net.corner[c][pore]);
+        x[c] = points[k];
+        r[c] = radii[k];
+    }
+    auto const shape = measure_simplex(x, r);
+    for (std::size_t c = 0; c < x.size(); ++c) force[c] = shape.traction[c] * thickness;
+    return force;
 }
 
 /// Energy stored in the compressed fluid, sum of V p^2 / 2 K_f, J.

@@ -42,7 +42,7 @@ std::string type_text() {
 }
 
 /// All that was given to a simulation and never changes: its settings but for those without effect on results, its
-/// particles' numbering and properties, the shape of its pores.
+/// particles' numbering and properties, the shape of its pores. With remeshing that shape is part of the state.
 template <class Model>
 std::uint64_t settings_hash(simulation<Model> const& sim) {
     state_writer bytes;
@@ -55,12 +55,7 @@ std::uint64_t settings_hash(simulation<Model> const& sim) {
         bytes(store.id(k), store.radius(k), store.mass(k), store.moment_of_inertia(k), store.material(k));
     for (auto const& bond : sim.pairs().bond_records()) bytes(bond.particles);
     if constexpr (has_fluid<Model>)
-        if (sim.filled()) {
-            auto const& net = sim.flow().network();
-            bytes(net.corner, net.size, net.throat_particle, net.throat_pore, net.length, net.interior_throats,
-                  net.drained_throats, net.throat_source);
-            for (auto const& source : net.sources) bytes(source.name, source.kind, source.pores, source.shares);
-        }
+        if (sim.filled() && settings.remeshing.rule == remesh_rule::never) archive_shape(bytes, sim.flow().network());
     return checksum_of(bytes.bytes());
 }
 
@@ -78,7 +73,7 @@ checkpoint_content checkpoint_of(simulation<Model> const& sim, Observers const&.
     state_writer state;
     state(sim);
     std::vector<std::string> accumulated;
-    auto const keep = [&](auto const& observer) {
+    [[maybe_unused]] auto const keep = [&](auto const& observer) {
         state_writer own;
         own(observer);
         accumulated.push_back(own.bytes());
@@ -107,7 +102,7 @@ void resume_from(checkpoint_content const& content, std::string const& name, sim
         require_state(state.left() == 0, "it is longer than it should be");
         require_state(accumulated.size() == sizeof...(Observers), "it was made with another number of observers");
         std::size_t next = 0;
-        auto const take = [&](auto& observer) {
+        [[maybe_unused]] auto const take = [&](auto& observer) {
             state_reader own(accumulated[next++]);
             own(observer);
             require_state(own.left() == 0, "an observer's part is longer than it should be");

@@ -32,6 +32,8 @@ public:
         if constexpr (has_fluid<Model>) {
             remesher_.start(remeshing, make, real(thickness), *flow_, store.positions(), radii, pairs);
             map_throats(pairs);
+            // So that step limits are those of the gaps that there are.
+            flow_->refresh_apertures(store.bodies(), pairs.force_column());
         }
     }
 
@@ -52,7 +54,7 @@ public:
             if (flow_) {
                 int const interval = flow_->settings().interval;
                 real const flow_time = (number + 1) % interval == 0 ? dt * real(interval) : real(0);
-                flow_->template step<WithLedger>(store.place(), pairs.force_column(), flow_time, threads);
+                flow_->template step<WithLedger>(store.bodies(), pairs.force_column(), flow_time, threads);
                 flow_->write_tractions(out, threads);
             }
     }
@@ -65,7 +67,7 @@ public:
         if constexpr (has_fluid<Model>)
             if (flow_ && remesher_.remesh(*flow_, store.positions(), store.radii().data(), pairs, number)) {
                 map_throats(pairs);
-                flow_->refresh_apertures(store.place(), pairs.force_column());
+                flow_->refresh_apertures(store.bodies(), pairs.force_column());
                 return true;
             }
         return false;
@@ -76,17 +78,20 @@ public:
     void skip_idle_throats(store_type const& store, Pairs const& pairs, double duration) {
         if constexpr (has_fluid<Model>)
             if (flow_) {
-                flow_->refresh_apertures(store.place(), pairs.force_column());
+                flow_->refresh_apertures(store.bodies(), pairs.force_column());
                 flow_->skip_idle_throats(real(duration));
             }
     }
+    /// Writes to, or reads from, an archive what a run changes.
     template <class Archive>
-    void serialize(Archive& ar) {
+    void archive(Archive& ar, store_type const& store) {
         bool filled = flow_.has_value();
         ar(filled);
         require_state(filled == flow_.has_value(), "its pores are filled and these are not, or the other way round");
-        require_state(!remesher_.on(), "its pores may be triangulated anew: such a run cannot be resumed");
-        if (filled) ar(*flow_);
+        if constexpr (has_fluid<Model>) {
+            if (remesher_.on()) remesher_.archive(ar, *flow_, store.radii().data());
+            if (filled) ar(*flow_);
+        }
     }
 
 private:

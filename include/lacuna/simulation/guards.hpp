@@ -10,6 +10,7 @@
 #include <lacuna/motion/symplectic_euler.hpp>
 #include <lacuna/observe/energy_ledger.hpp>
 #include <lacuna/particles/store.hpp>
+#include <lacuna/pores/pore_network.hpp>
 
 /// \file
 /// What is looked at after each step: whether the state still means anything.
@@ -128,23 +129,23 @@ void check_energy(particle_store<Real, Dim> const& store, growth_watch<Real>& wa
                        "energy runs away: the time step is above the stable one, or a law makes energy");
 }
 
-/// Pores in the plane. \throws unstable_run for one whose corners have passed each other: it has no volume any more
-template <class Real, class Network>
-void check_pores(particle_store<Real, 2> const& store, Network const& net, moment const& now) {
+/// \throws unstable_run for a pore whose corners have passed each other: it has no volume any more
+template <class Real, int Dim>
+void check_pores(particle_store<Real, Dim> const& store, pore_network<Real, Dim> const& net, moment const& now) {
     if (net.bare()) return;
     for (std::size_t p = 0; p < net.pores(); ++p) {
-        auto const a = store.position(std::size_t(net.corner[0][p]));
-        auto const ab = store.position(std::size_t(net.corner[1][p])) - a;
-        auto const ac = store.position(std::size_t(net.corner[2][p])) - a;
-        Real const area = cross(ab, ac) / 2;
-        if (area > 0) continue;
+        typename pore_mesh<Dim>::simplex corners;
+        for (std::size_t c = 0; c < corners.size(); ++c) corners[c] = net.corner[c][p];
+        Real const size = simplex_size(corners, store.positions());
+        if (size > 0) continue;
         std::string who;
-        for (auto const& corner : net.corner) who += " " + std::to_string(store.id(std::size_t(corner[p])));
-        throw_unstable(store, now, net.corner[0][p],
-                       "pore " + std::to_string(p) + " between particles" + who + " is turned over, its area is " +
-                           to_text(double(area)) + " m^2",
-                       "particles have passed each other: the deformation is too large for the pores of the start; "
-                       "remeshing makes new ones");
+        for (auto const k : corners) who += " " + std::to_string(store.id(std::size_t(k)));
+        throw_unstable(store, now, corners[0],
+                       "pore " + std::to_string(p) + " between particles" + who + " is turned over, its " +
+                           (Dim == 2 ? "area" : "volume") + " is " + to_text(double(size)) +
+                           (Dim == 2 ? " m^2" : " m^3"),
+                       "particles have passed each other: the deformation is too large for the pores of the start; " +
+                           std::string(Dim == 2 ? "remeshing makes new ones" : "in space there is no remeshing"));
     }
 }
 

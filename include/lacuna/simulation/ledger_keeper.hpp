@@ -34,9 +34,11 @@ public:
     /// \param fracture taken out by bonds that failed in this step in tension, in shear, J
     /// \param before, dt length of the step before and of this one, s
     /// \param flow nullptr without fluid
+    /// \param wall_power of moving walls, with their velocities before and after, W
     template <class Flow>
     void keep(pair_energy const& pairs, std::array<double, 2> const& fracture,
-              std::span<motion_report<Real> const> reports, double before, double dt, Flow const* flow) {
+              std::span<motion_report<Real> const> reports, double before, double dt, Flow const* flow,
+              std::array<double, 2> const& wall_power = {}) {
         motion_report<Real> total;
         for (auto const& r : reports) {
             total.kinetic += r.kinetic;
@@ -48,6 +50,10 @@ public:
             total.damping_before += r.damping_before;
             total.damping_after += r.damping_after;
         }
+        total.held_before += wall_power[0];
+        total.held_after += wall_power[1];
+        total.load_before += wall_power[0];
+        total.load_after += wall_power[1];
         bool const first = !open_;
         if (first) {
             ledger_ = {};

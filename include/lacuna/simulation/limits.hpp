@@ -41,6 +41,12 @@ void add_fluid_stiffness(frequency_bound<Dim>& bound, Store const& store, Flow c
 
 } // namespace detail
 
+/// What a step has to stay below for the fluid, s; see time_step_limits::flow.
+template <class Flow>
+double flow_limit(Flow const& flow) {
+    return double(flow.critical_time_step()) / flow.settings().interval;
+}
+
 /// Limits of the time step of the given parts in their present state (MODEL.md section 6).
 /// \param flow nullptr without fluid
 template <class Model, class Store, class Interactions, class Walls, class Flow>
@@ -75,6 +81,9 @@ time_step_limits find_limits(Store const& store, Interactions const& interaction
         double const twice = 2 * double(store.mass(k));
         if constexpr (dashed) dashpots.add_support(k, normal, dashpot(kn, twice, twice), 0, lever);
     });
+    walls.for_each_moment_stiffness(store, [&](std::size_t k, point const& normal, moment_stiffness<double> const& stiffness) {
+        bound.add_turning(k, normal, stiffness.bending, stiffness.twisting);
+    });
     time_step_limits result;
     result.equation_9 = wave;
     result.equation_19 = result.flow = std::numeric_limits<double>::infinity();
@@ -82,7 +91,7 @@ time_step_limits find_limits(Store const& store, Interactions const& interaction
         if (flow) {
             detail::add_fluid_stiffness(bound, store, *flow);
             result.equation_19 = double(flow->equation_19_time_step());
-            result.flow = double(flow->critical_time_step()) / flow->settings().interval;
+            result.flow = flow_limit(*flow);
         }
     double const against_motion = 1 + std::fabs(damping_type::particle_force(damping, 1.0, -1.0));
     double drag_rate = 0;

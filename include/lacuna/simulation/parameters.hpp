@@ -57,6 +57,8 @@ struct simulation_parameters {
         for (std::size_t w = 0; w < walls.size(); ++w) walls[w].validate("walls[" + std::to_string(w) + "]");
         flow.validate("flow");
         remeshing.validate("remeshing");
+        if (dim == 3 && remeshing.rule != remesh_rule::never)
+            refuse("remeshing.rule", "when_needed", "never: in space pores keep their mesh");
         require_not_negative("time_step", time_step);
         require_positive("safety", safety);
         require_finite("start_time", start_time);

@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
+#include <lacuna/core/points.hpp>
+#include <lacuna/core/state.hpp>
 #include <lacuna/pores/carry_fluid.hpp>
+#include <lacuna/pores/network_shape.hpp>
 #include <lacuna/pores/remesh.hpp>
 #include <lacuna/pores/tractions.hpp>
 
@@ -34,6 +39,7 @@ public:
         make_ = [](void const* kept, points_view<Real, Dim> x, Real const* r) -> network_type {
             return (*static_cast<maker const*>(kept))(x, r);
         };
+        keep_places(points);
         accept(flow, points, radii, pairs);
     }
 
@@ -67,12 +73,41 @@ public:
             ledger.remesh_content = Real(report.content);
             ledger.boundary_inflow -= Real(report.lost);
             flow.restore(std::move(fresh), ledger);
+            keep_places(points);
         }
         accept(flow, points, radii, pairs);
         return another;
     }
 
+    /// Writes what the shape of the pores follows from, where the particles were when they were made, or reads it and
+    /// gives the flow solver its network of then; the fluid in it is the solver's to read.
+    /// \throws std::runtime_error when the pores come out as others; what makes the network throws
+    template <class Archive>
+    void archive(Archive& ar, Flow& flow, Real const* radii) {
+        ar(fixed_length{made_at_});
+        if constexpr (Archive::is_loading::value) {
+            for (auto const& x : made_at_)
+                for (int axis = 0; axis < Dim; ++axis) require_state(std::isfinite(x[axis]), "where its pores were made");
+            auto const places = view_points(made_at_);
+            auto network = make_(maker_.get(), places, radii), told = network;
+            archive_shape(ar, told);
+            require_state(same_shape(told, network), "its pores were made in another way");
+            require_state(told.size.size() == network.size.size(), "the sizes of its pores");
+            for (Real const size : told.size) require_state(size > Real(0) && std::isfinite(size), "the size of a pore");
+            network.size = told.size;
+            flow.restore(Flow(flow.settings(), std::move(network), thickness_, places, radii).network(), flow.ledger());
+        } else {
+            archive_shape(ar, flow.network());
+        }
+        watch_.archive(ar, flow.network(), made_at_.size());
+        ar(bonds_);
+    }
+
 private:
+    void keep_places(points_view<Real, Dim> points) {
+        made_at_.resize(points.size());
+        for (std::size_t k = 0; k < points.size(); ++k) made_at_[k] = points[k];
+    }
     template <class Pairs>
     static auto visit(Pairs const& pairs, std::size_t count) {
         return [&pairs, count](auto const& use) {
@@ -95,8 +130,22 @@ private:
     std::shared_ptr<void const> maker_;
     network_type (*make_)(void const*, points_view<Real, Dim>, Real const*) = nullptr;
     mesh_watch<Real> watch_;
+    std::vector<vec<Real, Dim>> made_at_; // centres when the present mesh was made
     Real thickness_ = Real(1);
     std::size_t bonds_ = 0;
+};
+
+/// In space pores keep their mesh: simulation_parameters allow for no other rule.
+template <class Flow, class Real>
+class remesher<Flow, Real, 3> {
+public:
+    template <class... Arguments>
+    void start(Arguments const&...) noexcept {}
+    bool on() const noexcept { return false; }
+    template <class... Arguments>
+    bool remesh(Arguments&&...) noexcept {
+        return false;
+    }
 };
 
 } // namespace lacuna

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// 3. A contact law of one's own: one formula, written over its scalar type.
+//
+// A contact that yields (Walton and Braun 1986, J. Rheology 30, 949): pressed in with stiffness k_1, let out with the
+// higher k_2, so that a dent remains. Whatever the speed, what comes back of a relative velocity is sqrt(k_1 / k_2).
+// The engine runs the formula in packs of numbers, and no file of the library changes.
+
+#include <cmath>
+#include <string>
+
+#include <lacuna/simulation.hpp>
+
+#include "check.hpp"
+
+// The functions of a formula: of numbers, packs of numbers and dual numbers alike.
+using lacuna::max, lacuna::min;
+
+struct yielding_contact {
+    struct material { // what a user sets, per material
+        double loading = 1e6, unloading = 4e6; // k_1, k_2, N/m
+        void validate(std::string const& name) const {
+            lacuna::require_positive(name + ".loading", loading);
+            if (!(unloading >= loading)) lacuna::refuse(name + ".unloading", unloading, ">= loading");
+        }
+    };
+    template <class T>
+    struct parameters { // what the formula reads, per pair of materials
+        T loading, unloading;
+    };
+    template <class T, int Dim>
+    struct history { // what a pair remembers
+        T touching_distance, deepest;
+    };
+
+    static parameters<double> combine(material const& a, material const& b, double /*thickness*/) {
+        auto const series = [](double x, double y) { return 2 / (1 / x + 1 / y); };
+        return {series(a.loading, b.loading), series(a.unloading, b.unloading)};
+    }
+    template <class T, int Dim>
+    static history<T, Dim> initial(T distance, T /*touching_distance*/) {
+        return {distance, T(0)};
+    }
+    // Where a bond fails in shear the contact starts afresh: it has not yielded.
+    template <class T, int Dim>
+    static history<T, Dim> hand_over(parameters<T> const&, lacuna::pair_motion<T, Dim> const& m, T /*normal_force*/,
+                                     lacuna::vec<T, lacuna::shear_dim<Dim>> const& /*shear_force*/) {
+        return {min(m.distance, m.touching_distance()), T(0)};
+    }
+    template <class T, int Dim>
+    static lacuna::pair_response<T, Dim, history<T, Dim>>
+    evaluate(parameters<T> const& p, lacuna::pair_motion<T, Dim> const& m, history<T, Dim> const& h) {
+        T overlap = max(h.touching_distance - m.distance, T(0));
+        T deepest = max(overlap, h.deepest);
+        T dent = deepest * (T(1) - p.loading / p.unloading);
+        T pressed = p.unloading * max(overlap - dent, T(0));
+        T plastic = T(0.5) * p.loading * (T(1) - p.loading / p.unloading) * (deepest * deepest - h.deepest * h.deepest);
+        return {-pressed, {}, {h.touching_distance, deepest}, T(0.5) * pressed * pressed / p.unloading, plastic};
+    }
+    template <class T>
+    static T stiffness(parameters<T> const& p) { // the stiffest it gets
+        return p.unloading;
+    }
+};
+
+struct model : lacuna::default_model<2> {
+    using contact_law = yielding_contact;
+};
+
+int main() {
+    lacuna::packing<double, 2> discs;
+    discs.add({0.0, 0.0}, 0.5);
+    discs.add({1.001, 0.0}, 0.5);
+
+    lacuna::simulation_parameters<model> p;
+    p.materials[0].contact = {.loading = 1e6, .unloading = 4e6};
+    p.safety = 0.01;
+
+    lacuna::simulation<model> sim(discs, p);
+    sim.set_velocity(0, {1.0, 0.0}); // m/s
+    while (sim.velocity(1)[0] == 0 || sim.force(1)[0] != 0) sim.step();
+
+    double const parting = sim.velocity(1)[0] - sim.velocity(0)[0];
+    return tutorial::check("coefficient of restitution", parting, std::sqrt(1e6 / 4e6), 1e-3);
+}

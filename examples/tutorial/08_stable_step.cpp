@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// 8. The stable time step, and what happens beyond it.
+//
+// The paper's eq. 9 gives sqrt(m / k) for a chain. But discs that are bonded also turn: with k_s = k_n the fastest
+// swing of a long chain is that in which all discs turn alike, of frequency sqrt(8 k / m), and the longest step 2 over
+// it: 0.71 of eq. 9. The library's bound is rigorous: never above the true limit.
+
+#include <cmath>
+#include <cstdio>
+
+#include <lacuna/particles/hexagonal.hpp>
+#include <lacuna/simulation.hpp>
+
+#include "check.hpp"
+
+struct model : lacuna::default_model<2> {};
+
+lacuna::simulation<model> chain(double time_step) {
+    lacuna::simulation_parameters<model> p;
+    p.materials[0].bond = {.normal_stiffness = 1e6, .shear_stiffness = 1e6};
+    p.time_step = time_step;      // 0: `safety` times the bound
+    p.allow_unstable_step = true; // else a step above the bound is refused
+    lacuna::simulation<model> sim(lacuna::chain<double, 2>(50, 0.5), p);
+    for (std::size_t k = 0; k < sim.size(); ++k) sim.set_spin(k, {1e-6}); // rad/s
+    return sim;
+}
+
+/// Whether a run of 5,000 steps is stopped because its energy runs away.
+bool runs_away(double time_step) {
+    auto sim = chain(time_step);
+    try {
+        sim.run(5000);
+    } catch (lacuna::unstable_run const&) { // it names step, time, particle and the likely cause
+        return true;
+    }
+    return false;
+}
+
+int main() {
+    auto const limits = chain(0).limits();
+    double stable = limits.rigorous, unstable = 1.1 * limits.equation_9;
+    if (runs_away(stable) || !runs_away(unstable)) return 1;
+    while (unstable - stable > 1e-3 * stable) {
+        double const middle = (stable + unstable) / 2;
+        (runs_away(middle) ? unstable : stable) = middle;
+    }
+    std::printf("eq. 9: %.4g s; the library's bound: %.4g s; tried out: stable at %.4g s, unstable at %.4g s\n",
+                limits.equation_9, limits.rigorous, stable, unstable);
+    return tutorial::check("longest stable step over eq. 9", stable / limits.equation_9, 1 / std::sqrt(2.0), 1e-2);
+}

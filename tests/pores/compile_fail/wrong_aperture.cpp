@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// refused: aperture_law
+
+#include <lacuna/pores/explicit_flow.hpp>
+
+/// Takes the gap alone: an aperture law is also told the normal force.
+struct gap_aperture {
+    struct parameters {
+        void validate(std::string const&) const {}
+    };
+    template <class T>
+#ifdef LACUNA_GOOD
+    static T aperture(parameters const&, T, T gap) {
+#else
+    static T aperture(parameters const&, T gap) {
+#endif
+        return gap;
+    }
+};
+
+lacuna::explicit_flow_with<gap_aperture>::parameters parameters;
