@@ -9,8 +9,6 @@
 
 namespace cartilage {
 
-double const choices::never = std::numeric_limits<double>::infinity();
-
 namespace {
 
 using kind = choice_field::kind;

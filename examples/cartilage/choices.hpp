@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -68,7 +69,7 @@ struct choices {
     double minimum_pressure = -never;
     drainage_rule drainage = drainage_rule::top_and_sides;
 
-    static const double never; ///< infinity
+    static constexpr double never = std::numeric_limits<double>::infinity();
     friend bool operator==(choices const&, choices const&) = default;
 };
 
