@@ -12,7 +12,8 @@ demo)
     ;;
 check)
     wanted="g++ make cmake libeigen3-dev libnanoflann-dev libqhull-dev libcairo2-dev libspectra-dev libcli11-dev
-        libtomlplusplus-dev nlohmann-json3-dev libcereal-dev zlib1g-dev catch2 libbenchmark-dev python3-vtk9"
+        libtomlplusplus-dev nlohmann-json3-dev libcereal-dev zlib1g-dev catch2 libbenchmark-dev python3-vtk9
+        doxygen"
     ;;
 *)
     echo "usage: sh cmake/dependencies.sh demo|check [more Debian packages]" >&2
