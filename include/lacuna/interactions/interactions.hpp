@@ -102,7 +102,7 @@ public:
 
     int chunks() const noexcept { return forces_.chunks(); }
 
-    /// \copydoc force_store::set_mode
+    /// As force_store::set_mode().
     void set_mode(store_type const& store, bool streaming, int threads) {
         if (!forces_.set_mode(streaming, threads)) return;
         neighbors_.set_threads(threads);
@@ -128,7 +128,7 @@ public:
                     if (auto const k = find_deep_overlap(store, contacts_, pack); k >= 0) deep_overlap_[std::size_t(chunk)] = k;
                 });
     }
-    /// \copydoc force_store::with_sums
+    /// As force_store::with_sums().
     template <class Use>
     void with_forces_on(int chunk, Use const& use) const {
         forces_.with_sums(chunk, use);
