@@ -107,9 +107,12 @@ TEMPLATE_TEST_CASE("a wet cluster of spheres that is torn: ledger, momenta, mass
     auto const linear = setups::momentum(sim), angular = setups::angular_momentum(sim);
     int const steps = 200;
     double missing = 0, gross = 0;
-    std::string const file = "wet_space.checkpoint";
+    struct scratch_file {
+        std::string path = "wet_space_checkpoint.bin";
+        ~scratch_file() { std::remove(path.c_str()); }
+    } const file;
     for (int s = 0; s < steps; ++s) {
-        if (s == steps / 2) save_checkpoint(file, sim);
+        if (s == steps / 2) save_checkpoint(file.path, sim);
         sim.step_with_energy();
         missing += std::fabs(sim.flow().ledger().mass_residual);
         gross += sim.flow().ledger().gross_volume;
@@ -130,8 +133,7 @@ TEMPLATE_TEST_CASE("a wet cluster of spheres that is torn: ledger, momenta, mass
     REQUIRE_THAT(norm(setups::angular_momentum(sim) - angular), WithinAbs(0, 1e-11 * 5 * scale));
 
     auto resumed = torn<TestType>();
-    load_checkpoint(file, resumed);
-    std::remove(file.c_str());
+    load_checkpoint(file.path, resumed);
     auto threaded = torn<TestType>(3);
     for (int s = 0; s < steps; ++s) threaded.step_with_energy();
     for (int s = steps / 2; s < steps; ++s) resumed.step_with_energy();
