@@ -225,7 +225,8 @@ TEST_CASE("Terzaghi's column in space") {
         for (int y = 0; y < 2; ++y)
             for (int x = 0; x < 2; ++x) spheres.add({double(x), double(y), double(z)}, 0.5);
     setups::bond_touching(spheres);
-    double const kn = 1, bulk_modulus = 8, modulus = 4 * kn, storage = 1 / modulus + (1 - setups::pi / 6) / bulk_modulus;
+    double const kn = 1, bulk_modulus = 8, modulus = 4 * kn;
+    double const storage = 1 / modulus + (1 - setups::pi / 6) / bulk_modulus;
     // Sound takes 1/400 of the time that the column takes to consolidate.
     double const time_scale = 400 * layers * std::sqrt(1.0 / (4 * kn / 4));
     double const conductance = 1.5 * storage * layers * layers / time_scale;
