@@ -352,7 +352,7 @@ double particle_runner<Model>::read_of_particle(probe const& p) const {
     }
     case quantity::rotation:
         if constexpr (dim == 2) {
-            return double(store.place().at(k, 2)) / sim_->radius(id);
+            return double(store.bodies().at(k, 2)) / sim_->radius(id);
         } else {
             // The rotation vector of a unit quaternion.
             auto const q = sim_->orientation(id);
