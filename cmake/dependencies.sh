@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# sh cmake/dependencies.sh demo|check [more Debian packages]: installs what is missing on Debian or Ubuntu, as root or
+# sh cmake/dependencies.sh demo|check|coverage|nightly [more Debian packages]: installs what is missing on Debian or Ubuntu, as root or
 # through sudo; does nothing when all is there. LACUNA_SKIP_DEPENDENCIES=1 skips it.
 set -eu
 
@@ -12,10 +12,22 @@ demo)
     ;;
 check)
     wanted="g++ make cmake libeigen3-dev libnanoflann-dev libqhull-dev libcairo2-dev libspectra-dev libcli11-dev
-        libtomlplusplus-dev nlohmann-json3-dev libcereal-dev catch2 libbenchmark-dev"
+        libtomlplusplus-dev nlohmann-json3-dev libcereal-dev libnlopt-dev zlib1g-dev catch2 libbenchmark-dev
+        python3-vtk9"
+    # Ubuntu's package of that name is none. Without, the test that looks at a report in a browser is left out.
+    if [ -r /etc/os-release ] && grep -q '^ID=debian' /etc/os-release; then wanted="$wanted chromium"; fi
+    ;;
+# What the presets of these names take beside `check`.
+coverage)
+    shift
+    exec sh "$0" check gcovr "$@"
+    ;;
+nightly)
+    shift
+    exec sh "$0" check clang libomp-dev "$@"
     ;;
 *)
-    echo "usage: sh cmake/dependencies.sh demo|check [more Debian packages]" >&2
+    echo "usage: sh cmake/dependencies.sh demo|check|coverage|nightly [more Debian packages]" >&2
     exit 2
     ;;
 esac

@@ -5,18 +5,21 @@
 set(LACUNA_CORE_TARGETS Eigen3::Eigen nanoflann::nanoflann)
 
 # Each optional component: what it is, the package to find, the target to link, and the third-party headers
-# by which a header or a source is known to need it (none: never needed, only used when there).
-set(LACUNA_COMPONENTS pores pictures spectra checkpoints openmp)
+# by which a header or a source is known to need it (none: never needed, only used when there); what pkg-config requires
+# for it, and which flags (none: its headers are where a compiler looks anyway).
+set(LACUNA_COMPONENTS pores pictures spectra checkpoints compression openmp)
 
 set(LACUNA_pores_WHAT "triangulations, Qhull's reentrant library")
 set(LACUNA_pores_PACKAGE LacunaQhull)
 set(LACUNA_pores_TARGET LacunaQhull::qhull_r)
 set(LACUNA_pores_HEADERS "^libqhull_r/")
+set(LACUNA_pores_PC_REQUIRES qhull_r)
 
 set(LACUNA_pictures_WHAT "pictures, cairo with PNG and SVG")
 set(LACUNA_pictures_PACKAGE LacunaCairo)
 set(LACUNA_pictures_TARGET LacunaCairo::cairo)
 set(LACUNA_pictures_HEADERS "^(cairo/)?cairo(-svg|-features)?\\.h$")
+set(LACUNA_pictures_PC_REQUIRES cairo cairo-png cairo-svg)
 
 set(LACUNA_spectra_WHAT "largest eigenvalues, Spectra")
 set(LACUNA_spectra_PACKAGE Spectra NAMES Spectra spectra)
@@ -28,10 +31,17 @@ set(LACUNA_checkpoints_PACKAGE cereal CONFIG)
 set(LACUNA_checkpoints_TARGET cereal::cereal)
 set(LACUNA_checkpoints_HEADERS "^cereal/")
 
+set(LACUNA_compression_WHAT "compressed VTK files, zlib")
+set(LACUNA_compression_PACKAGE ZLIB)
+set(LACUNA_compression_TARGET ZLIB::ZLIB)
+set(LACUNA_compression_HEADERS "^zlib\\.h$")
+set(LACUNA_compression_PC_REQUIRES zlib)
+
 set(LACUNA_openmp_WHAT "loops over several threads, OpenMP")
 set(LACUNA_openmp_PACKAGE OpenMP COMPONENTS CXX)
 set(LACUNA_openmp_TARGET OpenMP::OpenMP_CXX)
 set(LACUNA_openmp_HEADERS "")
+set(LACUNA_openmp_PC_FLAGS -fopenmp)
 
 # lacuna_find_core(REQUIRED | QUIET): Eigen and nanoflann. Eigen 3.4's own version file refuses later minor
 # versions and ranges, and nanoflann 1.4.3 announces itself as 1.4.2: hence the looks at the versions here.

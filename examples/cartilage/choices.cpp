@@ -9,8 +9,6 @@
 
 namespace cartilage {
 
-double const choices::never = std::numeric_limits<double>::infinity();
-
 namespace {
 
 using kind = choice_field::kind;
@@ -36,6 +34,7 @@ struct span {
     std::string_view rule;
     scale steps;
     std::vector<double> trials;
+    std::array<double, 2> fit;
     double special = std::numeric_limits<double>::quiet_NaN();
 };
 
@@ -48,6 +47,7 @@ choice_field number(std::string_view name, std::string_view unit, span s, std::s
     f.rule = s.rule;
     f.steps = s.steps;
     f.trials = std::move(s.trials);
+    f.fit = s.fit;
     f.reason = reason;
     return f;
 }
@@ -85,7 +85,7 @@ std::vector<choice_field> make_fields() {
     f.push_back(word<&c::domain>("domain", {"120x300", "300x120"}, "120x300 or 300x120",
                                  "Table 2 gives length x height, the specimens are 120 um thick (Fig. 7)."));
     f.push_back(number<&c::fibre_spacing>("fibre_spacing", "diameters",
-                                          {2, 12, "a number from 2 to 12", scale::logarithmic, {3, 6}},
+                                          {2, 12, "a number from 2 to 12", scale::logarithmic, {3, 6}, {2.5, 8}},
                                           "Only Fig. 9 shows how far apart the fibres are."));
     f.push_back([] {
         choice_field n = field<&c::fibre_layers>("fibre_layers", kind::count, "");
@@ -96,22 +96,22 @@ std::vector<choice_field> make_fields() {
         return n;
     }());
     f.push_back(number<&c::middle_fibre_length>("middle_fibre_length", "um",
-                                                {15, 300, "a number from 15 to 300", scale::logarithmic, {30, 120}},
+                                                {15, 300, "a number from 15 to 300", scale::logarithmic, {30, 120}, {20, 150}},
                                                 "The paper says no more of the middle network than that it is random."));
     f.push_back(number<&c::deep_fraction>("deep_fraction", "of the height",
-                                          {0.1, 0.8, "a number from 0.1 to 0.8", scale::linear, {0.25, 0.45}},
+                                          {0.1, 0.8, "a number from 0.1 to 0.8", scale::linear, {0.25, 0.45}, {0.2, 0.5}},
                                           "How thick the zones of the whole specimen are is not said."));
     f.push_back(number<&c::surface_fraction>("surface_fraction", "of the height",
-                                             {0.1, 0.8, "a number from 0.1 to 0.8", scale::linear, {0.15, 0.45}},
+                                             {0.1, 0.8, "a number from 0.1 to 0.8", scale::linear, {0.15, 0.45}, {0.15, 0.5}},
                                              "How thick the zones of the whole specimen are is not said."));
-    f.push_back(number<&c::fill>("fill", "area fraction", {0.6, 1, "a number from 0.6 to 1", scale::linear, {0.78}},
+    f.push_back(number<&c::fill>("fill", "area fraction", {0.6, 1, "a number from 0.6 to 1", scale::linear, {0.78}, {0.75, 0.9}},
                                  "How dense the free particles lie is not said."));
     f.push_back(number<&c::contact_tolerance>(
         "contact_tolerance", "of the smaller radius",
-        {1e-3, 0.05, "a number from 0.001 to 0.05", scale::logarithmic, {5e-3, 0.02}},
+        {1e-3, 0.05, "a number from 0.001 to 0.05", scale::logarithmic, {5e-3, 0.02}, {2e-3, 0.03}},
         "Up to which gap neighbours of the packing count as touching is not said."));
     f.push_back(number<&c::thickness>("thickness", "um",
-                                      {0.1, 1e6, "a number from 0.1 to 1e6", scale::logarithmic, {1.75, 7}},
+                                      {0.1, 1e6, "a number from 0.1 to 1e6", scale::logarithmic, {1.75, 7}, {0.5, 20}},
                                       "The model is plane: how deep it is out of the plane is not said."));
     f.push_back(word<&c::mass>("mass", {"disc", "sphere"}, "disc or sphere",
                                "Table 1 gives densities, not how a disc's volume follows from its radius."));
@@ -120,59 +120,59 @@ std::vector<choice_field> make_fields() {
                                     "A_c of the failure criterion is not given."));
     f.push_back(number<&c::bond_moment>(
         "bond_moment", "of a parallel bond's",
-        {0, 10, "a number from 0 (none) to 10", scale::linear, {0.25, 1}},
+        {0, 10, "a number from 0 (none) to 10", scale::linear, {0.25, 1}, {0, 3}},
         "The connective model has no moment, yet a fibre without bending stiffness is a chain of hinges."));
     f.push_back(number<&c::fibre_links>("fibre_links", "of the fibres' strength",
-                                        {0, 10, "a number from 0 (none) to 10", scale::linear, {0.5, 1}},
+                                        {0, 10, "a number from 0 (none) to 10", scale::linear, {0.5, 1}, {0, 3}},
                                         "Whether fibres are bonded where they cross or touch is not said."));
     f.push_back(number<&c::matrix_links>("matrix_links", "of the fibres' strength",
-                                         {0, 10, "a number from 0 (none) to 10", scale::linear, {0.5, 1}},
+                                         {0, 10, "a number from 0 (none) to 10", scale::linear, {0.5, 1}, {0, 3}},
                                          "Whether fibres are bonded to the free particles beside them is not said."));
-    f.push_back(stated(number<&c::friction>("friction", "", {0, 2, "a number from 0 to 2", scale::linear, {0, 0.5}},
+    f.push_back(stated(number<&c::friction>("friction", "", {0, 2, "a number from 0 to 2", scale::linear, {0, 0.5}, {0, 1}},
                                             "Table 1 gives 0.1; varied to show what it is worth.")));
     f.push_back(number<&c::local_damping>("local_damping", "of the force",
-                                          {0, 0.9, "a number from 0 (none) to 0.9", scale::linear, {0.2, 0.7}},
+                                          {0, 0.9, "a number from 0 (none) to 0.9", scale::linear, {0.2, 0.7}, {0, 0.8}},
                                           "No damping is mentioned, but without any nothing comes to rest."));
     // The load and the end
     f.push_back(word<&c::load_area>("load_area", {"disc", "strip"}, "disc (pi r^2) or strip (2 r t)",
                                     "How the load in MPa becomes a force on each particle is not given."));
     f.push_back(word<&c::load>("load", {"free", "platen"}, "free or platen",
                                "The paper's load is uniform, that of the experiment comes from a plate (Fig. 7)."));
-    f.push_back(number<&c::ramp_time>("ramp_time", "ns", {0, 1e3, "a number from 0 to 1000", scale::linear, {2, 8}},
+    f.push_back(number<&c::ramp_time>("ramp_time", "ns", {0, 1e3, "a number from 0 to 1000", scale::linear, {2, 8}, {0, 20}},
                                       "Whether the load comes at once or rises is not said."));
     f.push_back(number<&c::wall_distance>("wall_distance", "diameters",
-                                          {0, 100, "a number from 0 (confined) to 100", scale::linear, {0, 8}},
+                                          {0, 100, "a number from 0 (confined) to 100", scale::linear, {0, 8}, {0, 10}},
                                           "The paper's 2 diameters are there to stop splashing particles."));
     f.push_back(number<&c::duration>("duration", "ns",
                                      {1e-3, 1e9, "a number from 0.001 to 1e9, or 0 (until quiet)", scale::logarithmic,
-                                      {5, 20}, 0},
+                                      {5, 20}, {1, 20}, 0},
                                      "For how long the load acts is not said."));
-    f.push_back(number<&c::longest>("longest", "ns", {0.1, 1e4, "a number from 0.1 to 10000", scale::logarithmic, {}},
+    f.push_back(number<&c::longest>("longest", "ns", {0.1, 1e4, "a number from 0.1 to 10000", scale::logarithmic, {20, 80}, {5, 80}},
                                     "Until when a specimen may take to become quiet."));
     f.push_back(number<&c::quiet_fraction>("quiet_fraction", "of the largest kinetic energy",
-                                           {1e-8, 1, "a number from 1e-8 to 1", scale::logarithmic, {}},
+                                           {1e-8, 1, "a number from 1e-8 to 1", scale::logarithmic, {1e-4, 0.01}, {1e-5, 0.1}},
                                            "What counts as equilibrium is not said."));
-    f.push_back(number<&c::quiet_time>("quiet_time", "ns", {0, 1e4, "a number from 0 to 10000", scale::linear, {}},
+    f.push_back(number<&c::quiet_time>("quiet_time", "ns", {0, 1e4, "a number from 0 to 10000", scale::linear, {5, 40}, {0, 40}},
                                        "For how long no bond must break in equilibrium is not said."));
     // The fluid
     f.push_back(of_fluid(number<&c::conductivity>(
-        "conductivity", "m/(s Pa)", {1e-15, 1e3, "a number from 1e-15 to 1000", scale::logarithmic, {1e-3, 83}},
+        "conductivity", "m/(s Pa)", {1e-15, 1e3, "a number from 1e-15 to 1000", scale::logarithmic, {1e-3, 83}, {1e-12, 100}},
         "Table 2's conductivity factor 1e-9 has no unit; water has 1/(12 mu) = 83 m/(s Pa).")));
     f.push_back(of_fluid(number<&c::aperture>("aperture", "nm",
-                                              {0.1, 1e4, "a number from 0.1 to 10000", scale::logarithmic, {1, 100}},
+                                              {0.1, 1e4, "a number from 0.1 to 10000", scale::logarithmic, {1, 100}, {1, 1000}},
                                               "The aperture a of eq. 14 at zero force is not given.")));
     f.push_back(of_fluid(number<&c::half_force>("half_force", "N",
-                                                {1e-9, 1, "a number from 1e-9 to 1", scale::logarithmic, {1e-5, 1e-3}},
+                                                {1e-9, 1, "a number from 1e-9 to 1", scale::logarithmic, {1e-5, 1e-3}, {1e-6, 1e-2}},
                                                 "How a force changes the aperture is not given.")));
-    f.push_back(of_fluid(number<&c::gap_factor>("gap_factor", "", {0, 1, "a number from 0 to 1", scale::linear, {0}},
+    f.push_back(of_fluid(number<&c::gap_factor>("gap_factor", "", {0, 1, "a number from 0 to 1", scale::linear, {0}, {0, 1}},
                                                 "How a gap changes the aperture is not given.")));
     f.push_back(of_fluid(number<&c::merge_conductance>(
         "merge_conductance", "m^3/(s Pa)",
-        {1e-40, 1, "a number from 1e-40 to 1, or inf (none)", scale::logarithmic, {1e-27}, infinity},
+        {1e-40, 1, "a number from 1e-40 to 1, or inf (none)", scale::logarithmic, {1e-27}, {1e-32, 1e-20}, infinity},
         "The conductance above which pores merge (Fig. 5b) is not given.")));
     f.push_back(of_fluid(number<&c::minimum_pressure>(
         "minimum_pressure", "Pa",
-        {-1e12, 0, "a number from -1e12 to 0, or -inf (the fluid never tears)", scale::linear, {0}, -infinity},
+        {-1e12, 0, "a number from -1e12 to 0, or -inf (the fluid never tears)", scale::linear, {0}, {-1e7, 0}, -infinity},
         "Whether the water takes tension is not said.")));
     f.push_back(of_fluid(word<&c::drainage>("drainage", {"top_and_sides", "top", "sealed"},
                                             "top_and_sides, top or sealed",

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -67,7 +69,7 @@ struct choices {
     double minimum_pressure = -never;
     drainage_rule drainage = drainage_rule::top_and_sides;
 
-    static const double never; ///< infinity
+    static constexpr double never = std::numeric_limits<double>::infinity();
     friend bool operator==(choices const&, choices const&) = default;
 };
 
@@ -84,6 +86,7 @@ struct choice_field {
     std::string_view rule;               ///< range in words
     scale steps = scale::linear;         ///< how it is varied
     std::vector<std::string_view> words; ///< of a word: what it can be
+    std::array<double, 2> fit{};         ///< of a number: between which values a calibration looks
     std::vector<double> trials;          ///< what a sensitivity study tries instead of the default; words by place
     bool stated = false;                 ///< the paper gives a value after all: never fitted
     bool fluid = false;                  ///< without effect in a dry run

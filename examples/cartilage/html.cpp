@@ -58,9 +58,10 @@ std::string html_picture(std::string const& path, std::string_view type, std::st
 }
 
 std::string html_table(std::string_view caption, std::vector<std::string> const& head,
-                       std::vector<std::vector<std::string>> const& rows) {
+                       std::vector<std::vector<std::string>> const& rows, table_cells cells) {
     std::string text = "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"" + html_text(caption) +
-                       "\"><table><caption>" + html_text(caption) + "</caption>\n<thead><tr>";
+                       (cells == table_cells::wrapped ? "\"><table class=\"wrapped\">" : "\"><table>") + "<caption>" +
+                       html_text(caption) + "</caption>\n<thead><tr>";
     for (std::string const& cell : head) text += "<th scope=\"col\">" + html_text(cell) + "</th>";
     text += "</tr></thead>\n<tbody>\n";
     for (auto const& row : rows) {

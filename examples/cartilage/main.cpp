@@ -8,8 +8,10 @@
 #include <lacuna/core/error.hpp>
 #include <lacuna/observe/picture.hpp>
 
+#include "calibrate.hpp"
 #include "options.hpp"
 #include "output.hpp"
+#include "sensitivity.hpp"
 #include "simulate.hpp"
 #include "specimen.hpp"
 #include "study.hpp"
@@ -70,11 +72,27 @@ int study(int argc, char** argv) {
     return cartilage::study(*o);
 }
 
+int sensitivity(int argc, char** argv) {
+    auto const o = cartilage::parse_sensitivity_command_line(argc, argv);
+    if (!o) return done;
+    catch_signals();
+    return cartilage::sensitivity(*o);
+}
+
+int calibrate(int argc, char** argv) {
+    auto const o = cartilage::parse_calibrate_command_line(argc, argv);
+    if (!o) return done;
+    catch_signals();
+    return cartilage::calibrate(*o);
+}
+
 } // namespace
 
 int main(int argc, char** argv) {
     try {
         if (argc > 1 && std::string_view(argv[1]) == "study") return study(argc - 1, argv + 1);
+        if (argc > 1 && std::string_view(argv[1]) == "sensitivity") return sensitivity(argc - 1, argv + 1);
+        if (argc > 1 && std::string_view(argv[1]) == "calibrate") return calibrate(argc - 1, argv + 1);
         auto const options = cartilage::parse_command_line(argc, argv);
         if (!options) return done;
         return options->what == cartilage::command::run ? run(*options) : pack(*options);

@@ -66,30 +66,6 @@ options understand(words const& w, command what) {
 
 } // namespace
 
-lacuna::cartilage_specimen_parameters options::specimen() const {
-    lacuna::cartilage_specimen_parameters p;
-    p.zone = zone;
-    p.preset = open.packing == packing_rule::lattice ? lacuna::specimen_preset::lattice
-                                                     : lacuna::specimen_preset::literal;
-    p.length = length_um / 1e6;
-    p.height = height_um / 1e6;
-    p.seed = seed;
-    if (open.radii == radius_rule::equal) p.r_min = p.r_max = p.diameter() / 2;
-    p.fibre_spacing = open.fibre_spacing;
-    p.fibre_layers = open.fibre_layers;
-    p.link_fibres = open.fibre_links > 0;
-    p.link_matrix = open.matrix_links > 0;
-    p.middle_fibre_length = open.middle_fibre_length * 1e-6;
-    p.deep_fraction = open.deep_fraction;
-    p.surface_fraction = open.surface_fraction;
-    p.middle_fraction = 1 - open.deep_fraction - open.surface_fraction;
-    p.fill = open.fill;
-    p.contact_tolerance = open.contact_tolerance;
-    p.thickness = open.thickness / 1e6;
-    p.wall_distance = open.wall_distance;
-    return p;
-}
-
 std::optional<options> parse_command_line(int argc, char const* const* argv) {
     words w;
     CLI::App app("Articular cartilage under load: a bonded-particle model with pore fluid, after Hong, Evans and "

@@ -26,8 +26,9 @@ std::string name_of(options const& o) {
 
 std::string key_of(packing_request const& r) {
     std::string key = cartilage::key_of(r.model) + "loads";
-    for (double const v : {r.loads.lowest_MPa, r.loads.highest_MPa, r.loads.resolution}) key += " " + lacuna::to_text(v);
-    for (double const v : r.loads.first_guess) key += " " + lacuna::to_text(v);
+    auto const add = [&](double v) { key.append(1, ' ').append(lacuna::to_text(v)); };
+    for (double const v : {r.loads.lowest_MPa, r.loads.highest_MPa, r.loads.resolution}) add(v);
+    for (double const v : r.loads.first_guess) add(v);
     return key;
 }
 
@@ -87,11 +88,13 @@ std::string medians(std::vector<std::optional<packing_result>> const& done) {
                 capacity.push_back(r->found.capacity_MPa);
                 complete.push_back(r->found.complete_MPa);
             }
-        if (!first.empty())
-            text += (text.empty() ? "" : ", ") + std::string(lacuna::to_string(zone)) + " " + median_text(first) + "/" +
-                    median_text(capacity) + "/" + median_text(complete);
+        if (first.empty()) continue;
+        if (!text.empty()) text += ", ";
+        text.append(lacuna::to_string(zone)).append(1, ' ').append(median_text(first)).append(1, '/');
+        text.append(median_text(capacity)).append(1, '/').append(median_text(complete));
     }
-    return text.empty() ? text : text + " MPa";
+    if (!text.empty()) text += " MPa";
+    return text;
 }
 
 } // namespace
@@ -133,8 +136,10 @@ std::vector<packing_result> run_packings(std::vector<packing_request> const& req
     std::mutex guard;
     std::size_t finished = 0;
     auto const note = [&] {
-        return "packings " + std::to_string(finished + report.packings_kept) + "/" + std::to_string(requests.size()) +
-               ", runs " + std::to_string(report.runs) + "  " + medians(done);
+        std::string text = "packings ";
+        text.append(std::to_string(finished + report.packings_kept)).append(1, '/');
+        text.append(std::to_string(requests.size())).append(", runs ").append(std::to_string(report.runs));
+        return text.append(2, ' ').append(medians(done));
     };
     share_out(open.size(), how.jobs, [&](std::size_t k) {
         packing_request const& request = requests[open[k]];

@@ -33,25 +33,6 @@ private:
 
 } // namespace
 
-char const* name_of(question q) {
-    switch (q) {
-    case question::first_crack: return "first_crack";
-    case question::capacity: return "capacity";
-    case question::complete: return "complete";
-    default: return "end";
-    }
-}
-
-bool answers(probe const& p, question q) {
-    if (p.invalid) return false;
-    switch (q) {
-    case question::first_crack: return p.first_crack_time.has_value();
-    case question::capacity: return p.capacity_time.has_value();
-    case question::complete: return p.complete_time.has_value();
-    default: return p.whole();
-    }
-}
-
 std::unique_ptr<probe_run> start_probe(specimen const& s, options const& o) {
     return visit_model(o.open, o.dry, [&]<class Model>(std::type_identity<Model>) -> std::unique_ptr<probe_run> {
         return std::make_unique<model_run<Model>>(s, o);

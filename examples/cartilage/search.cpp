@@ -15,8 +15,8 @@ namespace cartilage {
 
 namespace {
 
-constexpr int first_stride = 8;  // places of the grid
-constexpr int most_unknown = 6;  // runs that do not count, in a row
+constexpr double first_stride = 1.16; // from the first guess, as a ratio of loads; doubled in places ever after
+constexpr int most_unknown = 6;       // runs that do not count, in a row
 
 enum class answer { no, yes, unknown };
 
@@ -83,7 +83,7 @@ private:
     int find(question q, int low, std::optional<double>& load, std::string& none) {
         bracket b = known_bracket(q, low);
         std::set<int> unknown;
-        int stride = first_stride, in_a_row = 0;
+        int stride = std::max(1, int(std::lround(std::log(first_stride) / std::log1p(range_.resolution)))), in_a_row = 0;
         for (bool first = true; !b.is_closed() && in_a_row < most_unknown; first = false) {
             int target;
             if (first && b.high > top_)

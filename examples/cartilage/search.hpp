@@ -4,7 +4,7 @@
 #include <array>
 #include <functional>
 
-#include "probe.hpp"
+#include "question.hpp"
 #include "study_result.hpp"
 
 /// \file
@@ -17,7 +17,8 @@ struct load_range {
     double lowest_MPa = 5;
     double highest_MPa = 1000;
     double resolution = 0.02; ///< largest step of the grid, relative
-    /// Where the search for each question begins, MPa: a guess that saves runs.
+    /// Where the search for each question begins, MPa. A good guess saves runs; far too high costs little, because
+    /// runs that answer yes are short.
     std::array<double, 3> first_guess{45, 1000, 1000};
 
     /// Number of steps of the grid. \throws std::invalid_argument naming the field, the value and the rule

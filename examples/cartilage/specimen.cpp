@@ -7,6 +7,30 @@
 
 namespace cartilage {
 
+lacuna::cartilage_specimen_parameters options::specimen() const {
+    lacuna::cartilage_specimen_parameters p;
+    p.zone = zone;
+    p.preset = open.packing == packing_rule::lattice ? lacuna::specimen_preset::lattice
+                                                     : lacuna::specimen_preset::literal;
+    p.length = length_um / 1e6;
+    p.height = height_um / 1e6;
+    p.seed = seed;
+    if (open.radii == radius_rule::equal) p.r_min = p.r_max = p.diameter() / 2;
+    p.fibre_spacing = open.fibre_spacing;
+    p.fibre_layers = open.fibre_layers;
+    p.link_fibres = open.fibre_links > 0;
+    p.link_matrix = open.matrix_links > 0;
+    p.middle_fibre_length = open.middle_fibre_length * 1e-6;
+    p.deep_fraction = open.deep_fraction;
+    p.surface_fraction = open.surface_fraction;
+    p.middle_fraction = 1 - open.deep_fraction - open.surface_fraction;
+    p.fill = open.fill;
+    p.contact_tolerance = open.contact_tolerance;
+    p.thickness = open.thickness / 1e6;
+    p.wall_distance = open.wall_distance;
+    return p;
+}
+
 specimen build_specimen(options const& o) { return lacuna::make_cartilage_specimen<double>(o.specimen()); }
 
 specimen_report report_of(specimen const& s) {

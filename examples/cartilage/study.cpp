@@ -73,6 +73,12 @@ study_result frame_of(study_options const& o) {
     return s;
 }
 
+/// Near the first cracks of most packings of the preset `literal`, MPa.
+double first_crack_guess(lacuna::cartilage_zone zone) {
+    bool const straight_on_top = zone == lacuna::cartilage_zone::surface || zone == lacuna::cartilage_zone::whole;
+    return straight_on_top ? 35 : 170;
+}
+
 /// Whether an independent piece of work belongs to the part of the study that is asked for.
 bool is_own(study_options const& o, std::size_t piece) { return int(piece % std::size_t(o.shards)) == o.shard - 1; }
 
@@ -142,6 +148,7 @@ void write_study(study_options const& o, output_directory& out, study_result con
     out.keep();
     if (!o.quiet) print_study(stdout, study);
     if (whole) write_report(o.out, study);
+    // Last, because its presence says that the study is finished.
     lacuna::whole_file file(out.file(result_name));
     file.write(text_of(study));
     file.commit();
@@ -189,6 +196,7 @@ std::vector<packing_request> requests_of(study_options const& o) {
                 packing_request r{o.model, o.loads};
                 r.model.zone = zone;
                 r.model.seed = seed;
+                r.loads.first_guess[0] = first_crack_guess(zone);
                 requests.push_back(std::move(r));
             }
     return requests;

@@ -42,7 +42,7 @@ std::vector<figure> draw_front_figures(std::string const& directory, study_resul
 
 /// \name Sizes, colours and words that the figures share.
 /// \{
-inline constexpr lacuna::plot_style figure_style{15};
+inline constexpr lacuna::plot_style figure_style{17};
 inline constexpr lacuna::color tension_ink{0.80, 0.15, 0.12};
 inline constexpr lacuna::color shear_ink{0.50, 0.20, 0.65};
 inline constexpr lacuna::color paper_ink{0.85, 0.45, 0.05};

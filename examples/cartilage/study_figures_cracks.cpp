@@ -67,7 +67,7 @@ std::string sentence_of(crack_map const& map, double height_um) {
 
 void draw_map(canvas& page, crack_map const& map, double length_um, double height_um, double scale) {
     page.clear({1, 1, 1});
-    rectangle const body{68, 62, 68 + scale * length_um, 62 + scale * height_um};
+    rectangle const body{76, 64, 76 + scale * length_um, 64 + scale * height_um};
     plot place(page, body, {0, length_um, "width (µm)", axis_scale::linear, length_um * scale < 250 ? 4 : 7},
                {0, height_um, "height (µm), load on top", axis_scale::linear, height_um * scale < 250 ? 4 : 7},
                figure_style);
@@ -153,7 +153,7 @@ std::vector<figure> draw_crack_figures(std::string const& directory, study_resul
         figure f{"cracks-" + std::string(lacuna::to_string(zone)), zone_title(zone), sentence_of(map, study.height_um),
                  false};
         lacuna::save_canvas_png_svg(
-            directory + "/" + f.stem, width, std::ceil(62 + scale * study.height_um + 54),
+            directory + "/" + f.stem, width, std::ceil(64 + scale * study.height_um + 60),
             [&](canvas& page) { draw_map(page, map, study.length_um, study.height_um, scale); });
         figures.push_back(std::move(f));
     }
@@ -166,8 +166,8 @@ std::vector<figure> draw_layer_figures(std::string const& directory, study_resul
         auto const order = layer_order_of(packings_of(study, zone));
         if (order.packings == 0) continue;
         figure f{"layers-" + std::string(lacuna::to_string(zone)), zone_title(zone), sentence_of(order), false};
-        rectangle const frame{106, 62, 462, 62 + std::max(120.0, 22.0 * double(order.layers.size()))};
-        lacuna::save_canvas_png_svg(directory + "/" + f.stem, width, frame.high + 54,
+        rectangle const frame{118, 64, 462, 64 + std::max(120.0, 22.0 * double(order.layers.size()))};
+        lacuna::save_canvas_png_svg(directory + "/" + f.stem, width, frame.high + 60,
                                     [&](canvas& page) { draw_layers(page, order, frame); });
         figures.push_back(std::move(f));
     }

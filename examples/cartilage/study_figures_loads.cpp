@@ -18,8 +18,8 @@ using lacuna::plot;
 using lacuna::plot_mark;
 
 constexpr double width = 560;
-constexpr lacuna::rectangle frame{68, 62, 540, 360};
-constexpr double height = 412;
+constexpr lacuna::rectangle frame{76, 64, 540, 360};
+constexpr double height = 420;
 constexpr lacuna::color ours_ink{0.10, 0.35, 0.75};
 
 std::string median_words(table3_cell const& cell, study_result const& study) {

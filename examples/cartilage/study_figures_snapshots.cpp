@@ -20,8 +20,8 @@ using lacuna::plot;
 using lacuna::plot_mark;
 using lacuna::rectangle;
 
-constexpr double width = 560, height = 722;
-constexpr rectangle upper{68, 62, 540, 330}, lower{68, 418, 540, 668};
+constexpr double width = 560, height = 728;
+constexpr rectangle upper{76, 64, 540, 330}, lower{76, 424, 540, 668};
 constexpr lacuna::color stress_ink{0.13, 0.13, 0.15}, pressure_ink{0.10, 0.35, 0.75};
 
 std::string title_of(snapshot const& s) {
@@ -49,14 +49,17 @@ double largest(std::vector<double> const& values) {
 void draw_fronts(canvas& page, snapshot const& s, double height_um) {
     auto const fronts = arrivals_of(s);
     auto const broken = first_break_of(s, height_um);
-    double const until = 1e9 * s.fronts.back().time;
+    // From the first waves to the end of the run it is three decades.
+    double const last = 1e9 * s.fronts.back().time;
+    double const first = std::max(1e9 * s.fronts.front().time, 1e-4 * last);
+    lacuna::plot_axis const times{0.9 * first, 1.1 * last, "time (ns)", axis_scale::logarithmic, 8};
     auto const upward = [&](series const& front) {
         series out;
         for (auto const& p : front) out.push_back({p[0], height_um - p[1]});
         return out;
     };
     page.clear({1, 1, 1});
-    plot place(page, upper, {0, until, "time (ns)"}, {0, height_um, "height (µm), load on top"}, figure_style);
+    plot place(page, upper, times, {0.0, height_um, "height (µm), load on top"}, figure_style);
     place.draw_axes();
     series cracks;
     for (study_crack const& c : s.run.cracks) cracks.push_back({1e9 * c.time, 1e6 * c.y});
@@ -79,7 +82,7 @@ void draw_fronts(canvas& page, snapshot const& s, double height_um) {
     }
     if (highest > 0) {
         lowest = std::max(lowest, 1e-5 * highest);
-        plot size(page, lower, {0, until, "time (ns)"},
+        plot size(page, lower, times,
                   {0.8 * lowest, 1.6 * highest, "largest mean of a layer (MPa)", axis_scale::logarithmic, 7},
                   figure_style);
         size.draw_axes();
@@ -94,14 +97,19 @@ void draw_fronts(canvas& page, snapshot const& s, double height_um) {
                             0.9 * figure_style.text_size, figure_style.ink);
 }
 
+std::string arrival_words(char const* what, series const& front, std::optional<double> const& speed) {
+    if (front.empty()) return "";
+    if (speed) return std::string("The ") + what + " moves down at " + number_text("%.3g", 1e-3 * *speed) + " µm/ns. ";
+    auto const ends =
+        std::minmax_element(front.begin(), front.end(), [](auto const& a, auto const& b) { return a[0] < b[0]; });
+    return std::string("The ") + what + " is there from " + number_text("%.2g", (*ends.first)[0]) + " to " +
+           number_text("%.2g", (*ends.second)[0]) + " ns on, in no order of depth. ";
+}
+
 std::string front_words(snapshot const& s, double height_um) {
     auto const fronts = arrivals_of(s);
-    std::string words;
-    if (fronts.stress_speed)
-        words += "The stress front moves at " + number_text("%.3g", 1e-3 * *fronts.stress_speed) + " µm/ns";
-    if (fronts.stress_speed && fronts.pressure_speed)
-        words += ", the pressure front at " + number_text("%.3g", 1e-3 * *fronts.pressure_speed) + " µm/ns";
-    if (!words.empty()) words += ". ";
+    std::string words = arrival_words("stress", fronts.stress, fronts.stress_speed) +
+                        arrival_words("pore pressure", fronts.pressure, fronts.pressure_speed);
     if (auto const b = first_break_of(s, height_um)) {
         words += "At the first break (" + number_text("%.2f", 1e9 * b->time) + " ns, " +
                  number_text("%.0f", 1e6 * b->depth) + " µm deep) the mean pore pressure around it is " +
@@ -111,6 +119,9 @@ std::string front_words(snapshot const& s, double height_um) {
     } else {
         words += s.run.cracks.empty() ? "No bond breaks." : "No pore pressure to compare with.";
     }
+    if (s.run.peak_pore_pressure > 0)
+        words += " The largest pressure of a pore in the whole run is " +
+                 number_text("%.3g", 1e-6 * s.run.peak_pore_pressure) + " MPa.";
     return words;
 }
 
@@ -130,7 +141,7 @@ std::vector<figure> draw_snapshot_figures(std::string const& directory, study_re
 std::vector<figure> draw_front_figures(std::string const& directory, study_result const& study) {
     std::vector<figure> figures;
     for (snapshot const& s : study.snapshots) {
-        if (s.fronts.size() < 2) continue;
+        if (s.fronts.size() < 2 || !(s.fronts.back().time > 0)) continue;
         figure f{"fronts-" + s.figure, title_of(s), front_words(s, study.height_um), false};
         lacuna::save_canvas_png_svg(directory + "/" + f.stem, width, height,
                                     [&](canvas& page) { draw_fronts(page, s, study.height_um); });

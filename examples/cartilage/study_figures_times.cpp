@@ -16,8 +16,8 @@ using lacuna::legend_mark;
 using lacuna::plot;
 using lacuna::plot_mark;
 
-constexpr double width = 560, height = 722;
-constexpr lacuna::rectangle upper{68, 62, 540, 330}, lower{68, 418, 540, 668};
+constexpr double width = 560, height = 728;
+constexpr lacuna::rectangle upper{76, 64, 540, 330}, lower{76, 424, 540, 668};
 constexpr lacuna::color elastic_ink{0.10, 0.35, 0.75}, slow_ink{0.80, 0.30, 0.10};
 constexpr double elastic_ns = 1e9 * first_crack_times::elastic_until;
 
@@ -35,14 +35,15 @@ std::string sentence_of(first_crack_times const& t) {
     if (t.slow.empty()) return words;
     words += " Of the later ones t √P is " + number_text("%.3g", t.product) + " ns √MPa (quartiles " +
              number_text("%.3g", t.product_low) + " to " + number_text("%.3g", t.product_high) + ")";
-    if (t.slope) {
-        words += ", and within a packing t goes as P to the power " + number_text("%.2f", *t.slope);
-        words += std::fabs(*t.slope + 0.5) <= 0.1
-                     ? ": the product is constant, so that this \"strength\" is a run length"
-                     : "; -0.50 would make the product constant";
-    }
-    words += ". At that product a run of " + number_text("%.3g", t.longest_run) + " ns cracks from " +
-             load_number(std::pow(t.product / t.longest_run, 2)) + " MPa on.";
+    bool const constant = t.slope && std::fabs(*t.slope + 0.5) <= 0.1;
+    if (t.slope)
+        words += ", and within a packing t goes as P to the power " + number_text("%.2f", *t.slope) +
+                 (constant ? ": the product is constant, so that this \"strength\" is a run length"
+                           : "; -0.50 would make the product constant");
+    words += ".";
+    if (constant)
+        words += " At that product a run of " + number_text("%.3g", t.longest_run) + " ns cracks from " +
+                 load_number(std::pow(t.product / t.longest_run, 2)) + " MPa on.";
     return words;
 }
 
@@ -86,7 +87,7 @@ void draw(canvas& page, first_crack_times const& t) {
     }
     lacuna::draw_legend_row(page, {upper.left, 20}, width - upper.left,
                             {{legend_mark::disc, elastic_ink, "elastic"},
-                             {legend_mark::ring, slow_ink, "later (kinematic)"},
+                             {legend_mark::ring, slow_ink, "later"},
                              {legend_mark::dashes, slow_ink, "t √P constant"}},
                             0.9 * figure_style.text_size, figure_style.ink);
 }

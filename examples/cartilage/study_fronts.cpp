@@ -26,6 +26,7 @@ series arrivals(std::vector<front_profile> const& profiles, profile_values what)
     return found;
 }
 
+/// Depth over time by least squares; none where the layers do not come one after the other.
 std::optional<double> speed_of(series const& front) {
     if (front.size() < 3) return std::nullopt;
     double t = 0, d = 0;
@@ -33,13 +34,16 @@ std::optional<double> speed_of(series const& front) {
         t += p[0] / double(front.size());
         d += p[1] / double(front.size());
     }
-    double tt = 0, td = 0;
+    double tt = 0, td = 0, dd = 0;
     for (auto const& p : front) {
         tt += (p[0] - t) * (p[0] - t);
         td += (p[0] - t) * (p[1] - d);
+        dd += (p[1] - d) * (p[1] - d);
     }
+    double const least_correlation = 0.9;
+    if (!(td > least_correlation * std::sqrt(tt * dd))) return std::nullopt;
     // µm per ns are 1000 m/s.
-    return tt > 0 ? std::optional<double>(1e3 * td / tt) : std::nullopt;
+    return 1e3 * td / tt;
 }
 
 /// Strength of the bonds at a depth: Table 1; the whole specimen has its zones from the top down, a third each.

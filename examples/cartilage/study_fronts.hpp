@@ -16,7 +16,8 @@ struct front_arrivals {
     static constexpr double share = 0.1; ///< a front is there once this share of the quantity's largest value is
 
     series stress, pressure; ///< time (ns) of the arrival, depth (µm) below the top, downwards
-    std::optional<double> stress_speed, pressure_speed; ///< m/s: least squares of depth over time
+    /// m/s: depth over time by least squares; none where they do not go with each other (correlation below 0.9).
+    std::optional<double> stress_speed, pressure_speed;
 };
 /// When stress and pressure come to each layer of a snapshot, by size and not by sign.
 front_arrivals arrivals_of(snapshot const& s);

@@ -11,16 +11,6 @@ namespace cartilage {
 
 namespace {
 
-std::vector<std::string> parts_of(std::string const& list, char separator) {
-    std::vector<std::string> parts(1);
-    for (char const c : list)
-        if (c == separator)
-            parts.emplace_back();
-        else
-            parts.back() += c;
-    return parts;
-}
-
 std::vector<lacuna::cartilage_zone> zones_of(std::string const& list) {
     std::vector<lacuna::cartilage_zone> zones;
     for (std::string const& name : parts_of(list, ',')) {
@@ -47,7 +37,9 @@ void understand_shard(std::string const& word, study_options& o) {
 } // namespace
 
 std::vector<std::pair<std::string_view, std::string_view>> further_commands() {
-    return {{"study", "Find the loads of Table 3 for many packings; 'study merge' puts parts together"}};
+    return {{"study", "Find the loads of Table 3 for many packings; 'study merge' puts parts together"},
+            {"sensitivity", "What each choice that the paper leaves open does to these loads"},
+            {"calibrate", "Fit chosen ones of the open choices to the paper's eleven numbers"}};
 }
 
 void add_pool_options(CLI::App& app, pool_words& w) {
@@ -95,16 +87,7 @@ std::optional<study_options> parse_study_command_line(int argc, char const* cons
     CLI::App& merge = *app.add_subcommand("merge", "Put the parts of a study together, and report on the whole");
     merge.add_option("DIR", o.merge, "results of the parts")->required()->type_name("");
     add_output_options(merge);
-    try {
-        app.parse(argc, argv);
-    } catch (CLI::Success const& wish) {
-        app.exit(wish);
-        return std::nullopt;
-    } catch (CLI::ParseError const& bad) {
-        std::string line = bad.what();
-        std::replace(line.begin(), line.end(), '\n', ' ');
-        throw usage_error(line);
-    }
+    if (!parse_words(app, argc, argv)) return std::nullopt;
     o.out = out;
     if (merge.parsed()) return o;
     o.model = understand_model(model);

@@ -11,42 +11,15 @@
 #include <lacuna/core/error.hpp>
 
 #include "html.hpp"
+#include "page.hpp"
 
 namespace cartilage {
 
 namespace {
 
-constexpr char const* style = R"(
-:root { color-scheme: light; }
-* { box-sizing: border-box; }
-body { margin: 0 auto; max-width: 76rem; padding: 1.5rem 1.25rem 4rem; background: #fff; color: #1d2129;
-  font: 1rem/1.55 system-ui, -apple-system, "Segoe UI", Roboto, "DejaVu Sans", sans-serif; overflow-wrap: anywhere; }
-h1 { font-size: 1.9rem; line-height: 1.2; margin: 0.5rem 0; }
-h2 { font-size: 1.35rem; line-height: 1.25; margin: 3rem 0 0.5rem; padding-top: 1rem; border-top: 1px solid #e3e6ea; }
-p, li { max-width: 46rem; }
-.lead { color: #4a5260; margin-top: 0; }
-.figures { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 30rem), 1fr)); gap: 2rem 2.5rem; }
-figure { margin: 0; min-width: 0; }
-figure img { display: block; width: 100%; max-width: 560px; height: auto; }
-figure h3 { font-size: 1.05rem; margin: 0 0 0.35rem; }
-figcaption { font-size: 0.925rem; color: #363d49; max-width: 560px; margin-top: 0.4rem; }
-.scroll { overflow-x: auto; margin: 1rem 0; max-width: 100%; }
-.scroll:focus-visible { outline: 2px solid #1a59bf; }
-table { border-collapse: collapse; font-size: 0.925rem; font-variant-numeric: tabular-nums; overflow-wrap: normal; }
-caption { text-align: left; color: #4a5260; padding-bottom: 0.4rem; }
-th, td { text-align: left; padding: 0.35rem 0.9rem 0.35rem 0; border-bottom: 1px solid #e3e6ea; white-space: nowrap; }
-thead th { border-bottom: 2px solid #b9c0ca; font-weight: 600; vertical-align: bottom; }
-tbody th { font-weight: 600; }
-pre { overflow-x: auto; background: #f6f7f9; border-radius: 6px; padding: 0.8rem 1rem; font-size: 0.85rem;
-  line-height: 1.45; max-width: 100%; }
-)";
+std::string paragraph(std::string const& plain, char const* kind = "") { return html_paragraph(plain, kind); }
 
-std::string paragraph(std::string const& plain, char const* kind = "") {
-    return "<p" + (*kind != '\0' ? " class=\"" + std::string(kind) + "\"" : std::string()) + ">" + html_text(plain) +
-           "</p>\n";
-}
-
-std::string heading(std::string const& plain) { return "<h2>" + html_text(plain) + "</h2>\n"; }
+std::string heading(std::string const& plain) { return html_heading(plain); }
 
 std::vector<lacuna::cartilage_zone> zones_of(study_result const& study) {
     std::vector<lacuna::cartilage_zone> found;
@@ -119,7 +92,7 @@ std::string what_was_run(study_result const& study) {
                           " do not count and enter no number of this page:");
         rows.clear();
         for (auto const& [why, number] : reasons) rows.push_back({why, std::to_string(number)});
-        text += html_table("Invalid runs", {"why", "runs"}, rows);
+        text += html_table("Invalid runs", {"why", "runs"}, rows, table_cells::wrapped);
     }
     text += paragraph("Code: " + (study.code.empty() ? "not recorded" : study.code) +
                       ". The choices that the paper leaves open:");
@@ -137,8 +110,7 @@ std::string tables(study_result const& study, std::vector<table3_cell> const& ce
         std::string const paper = cell.paper ? lacuna::to_text(*cell.paper) : "-";
         bool const known = !cell.loads.empty();
         if (cell.what == threshold::first_crack) side_by_side.push_back({zone});
-        side_by_side.back().push_back(paper);
-        side_by_side.back().push_back(known ? load_text(cell.median, study) : "-");
+        side_by_side.back().push_back((known ? load_text(cell.median, study) : "-") + " (paper " + paper + ")");
         full.push_back({zone + ", " + name_of(cell.what), std::to_string(cell.count()), std::to_string(cell.invalid),
                         std::to_string(cell.none), known ? load_text(cell.median, study) : "-",
                         known ? interval_text(cell.first_quartile, cell.third_quartile, study) : "-",
@@ -149,9 +121,8 @@ std::string tables(study_result const& study, std::vector<table3_cell> const& ce
     text += paragraph("First crack: the lowest load with a broken bond. Capacity: the lowest load at which the first "
                       "layer has half of its bonds broken. Complete: the lowest load at which 90 % of the fibres are "
                       "cut. All in MPa.");
-    text += html_table("The paper's loads beside the medians of this study (MPa)",
-                       {"zone", "first crack, paper", "here", "capacity, paper", "here", "complete, paper", "here"},
-                       side_by_side);
+    text += html_table("Medians of this study and the paper's loads (MPa)",
+                       {"zone", "first crack", "capacity", "complete"}, side_by_side, table_cells::wrapped);
     text += html_table("The same with its scatter (MPa)",
                        {"load", "packings", "invalid", "none", "median", "quartiles", "95 % of the median", "paper",
                         "paper's percentile"},
@@ -172,8 +143,8 @@ std::string limits(study_result const& study, std::vector<table3_cell> const& ce
     lines.push_back("Loads are known to " + number_text("%.3g", 100 * study.resolution) +
                     " % at best; where more load does not break more, the load is the one that the search met.");
     lines.push_back("The smallest cell of Table 3 has " + count_text(std::size_t(fewest), "packing") + "; " +
-                    std::to_string(none) + " loads lie above " + lacuna::to_text(study.highest_MPa) + " MPa and " +
-                    std::to_string(invalid) + " are undecided, over all cells.");
+                    count_text(std::size_t(none), "load") + " above " + lacuna::to_text(study.highest_MPa) +
+                    " MPa and " + count_text(std::size_t(invalid), "undecided load") + " over all cells.");
     lines.push_back(
         "The median damage is drawn where at least half of the packings have whole runs on both sides; runs "
         "that stopped early, at high loads, are not in it.");
@@ -202,14 +173,7 @@ std::string show(std::string const& directory, figure_section const& section) {
 std::string study_page(std::string const& directory, study_result const& study, std::vector<table3_cell> const& cells,
                        std::vector<figure_section> const& sections) {
     std::size_t const zones = zones_of(study).size();
-    std::string text = "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-                       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-                       // Nothing from elsewhere: the browser itself keeps this page to what it holds.
-                       "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; "
-                       "style-src 'unsafe-inline'\">\n"
-                       "<title>Cartilage under load: study</title>\n<style>";
-    text += style;
-    text += "</style>\n</head>\n<body>\n<h1>Cartilage under load</h1>\n";
+    std::string text = page_head("Cartilage under load: study") + "<h1>Cartilage under load</h1>\n";
     text +=
         paragraph("At which load each zone of articular cartilage cracks, beside Hong, Evans and Mente: " +
                       count_text(study.packings.size(), "random packing") + " of " + count_text(zones, "zone") + ".",
@@ -217,7 +181,7 @@ std::string study_page(std::string const& directory, study_result const& study, 
     text += what_was_run(study) + tables(study, cells);
     for (figure_section const& section : sections)
         if (!section.figures.empty()) text += show(directory, section);
-    return text + limits(study, cells) + "</body>\n</html>\n";
+    return text + limits(study, cells) + page_end();
 }
 
 } // namespace cartilage

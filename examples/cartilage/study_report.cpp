@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "study_report.hpp"
 
+#include <filesystem>
+#include <vector>
+
 #include <lacuna/core/error.hpp>
 #include <lacuna/observe/canvas_file.hpp>
 
@@ -26,6 +29,21 @@ void check(study_result const& study) {
         }
 }
 
+/// Removes what an earlier report left: it may have had figures that this one does not.
+void clear_report(std::string const& directory) {
+    std::vector<std::string> names{"report.html", "table3.csv"};
+    auto const add = [&](std::string const& stem) {
+        for (char const* ending : {".png", ".svg"}) names.push_back(stem + ending);
+    };
+    for (char const* stem : {"loads-first-crack", "loads-capacity", "loads-complete"}) add(stem);
+    for (auto const zone : all_zones)
+        for (char const* stem : {"damage-", "first-crack-", "cracks-", "layers-"})
+            add(stem + std::string(lacuna::to_string(zone)));
+    for (char const* number : {"10", "11", "12"})
+        for (char const* stem : {"figure-", "fronts-"}) add(std::string(stem) + number);
+    for (std::string const& name : names) std::filesystem::remove(directory + "/" + name);
+}
+
 void write_whole(std::string const& path, std::string const& text) {
     lacuna::whole_file file(path);
     file.write(text);
@@ -37,6 +55,7 @@ void write_whole(std::string const& path, std::string const& text) {
 void write_report(std::string const& directory, study_result const& study) {
     check(study);
     auto const cells = table3(study);
+    clear_report(directory);
     write_whole(directory + "/table3.csv", table3_csv(cells, study));
     std::vector<figure_section> const sections{
         {"Scatter of the loads", "Every packing's load on a logarithmic scale, beside the paper's one number per zone.",
@@ -44,8 +63,8 @@ void write_report(std::string const& directory, study_result const& study) {
         {"Damage against load", "Broken bonds at the end of the runs that ran whole, and their median.",
          draw_damage_figures(directory, study)},
         {"Time of the first crack",
-         "Two mechanisms compete. Elastic waves break bonds within about 2 ns, if the load is large enough. Free "
-         "particles that flow out break them later; then t √P is constant, and any load cracks if one waits.",
+         "Two mechanisms can compete. Elastic waves break bonds within about 2 ns, if the load is large enough. Free "
+         "particles that flow out break them later: then t √P is constant, and any load cracks if one waits.",
          draw_first_crack_figures(directory, study)},
         {"Where bonds break",
          "All breaks of each packing's telling run: the one at its capacity, else the one with most breaks.",

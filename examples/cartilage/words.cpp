@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "words.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
@@ -56,6 +57,30 @@ double positive_number(char const* option, std::string const& word, char const* 
     double const value = std::strtod(word.c_str(), &end);
     if (word.empty() || *end != '\0' || !(value > 0) || !std::isfinite(value)) refuse(option, word, rule);
     return value;
+}
+
+bool parse_words(CLI::App& app, int argc, char const* const* argv) {
+    try {
+        app.parse(argc, argv);
+        return true;
+    } catch (CLI::Success const& wish) {
+        app.exit(wish);
+        return false;
+    } catch (CLI::ParseError const& bad) {
+        std::string line = bad.what();
+        std::replace(line.begin(), line.end(), '\n', ' ');
+        throw usage_error(line);
+    }
+}
+
+std::vector<std::string> parts_of(std::string const& list, char separator) {
+    std::vector<std::string> parts(1);
+    for (char const c : list)
+        if (c == separator)
+            parts.emplace_back();
+        else
+            parts.back() += c;
+    return parts;
 }
 
 void add_model_options(CLI::App& app, model_words& w) {

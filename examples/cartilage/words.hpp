@@ -34,6 +34,11 @@ options understand_model(model_words const& w);
 /// \throws usage_error when the specimen cannot be built, naming the option that is to blame
 void validate_specimen(options const& o);
 
+/// Lets CLI11 read the command line; false: help was asked for, and is on stdout. \throws usage_error
+bool parse_words(CLI::App& app, int argc, char const* const* argv);
+/// "a,b" in two; empty text has one empty part.
+std::vector<std::string> parts_of(std::string const& list, char separator);
+
 /// \throws usage_error "option word: must be rule"
 [[noreturn]] void refuse(char const* option, std::string const& word, char const* rule);
 /// \throws usage_error

@@ -7,6 +7,9 @@
 #include <string>
 
 #include <lacuna/observe/vtk.hpp>
+#ifdef LACUNA_HAS_COMPRESSION
+#include <lacuna/observe/vtk_zlib.hpp>
+#endif
 #ifdef LACUNA_HAS_PICTURES
 #include <lacuna/observe/picture.hpp>
 #endif
@@ -14,6 +17,12 @@
 namespace lacuna_run {
 
 namespace {
+
+#ifdef LACUNA_HAS_COMPRESSION
+using vtk_storage = lacuna::vtk_zlib;
+#else
+using vtk_storage = lacuna::vtk_raw;
+#endif
 
 std::string numbered(char const* name, long long step, char const* ending) {
     char text[64];
@@ -32,7 +41,7 @@ std::vector<double> flat(std::vector<point> const& points) {
 void write_vtk(output_directory const& out, frame_data const& f, scenario const& s, journal& j) {
     j.frames.push_back({f.time, numbered("", f.step, ".vtp")});
     auto const save = [&](char const* name, lacuna::vtk_surface const& surface) {
-        lacuna::save_vtk(out.file(numbered(name, f.step, ".vtp")), surface);
+        lacuna::save_vtk(out.file(numbered(name, f.step, ".vtp")), surface, vtk_storage{});
         std::vector<std::pair<double, std::string>> series;
         for (auto const& [time, ending] : j.frames) series.emplace_back(time, name + ending);
         lacuna::save_vtk_series(out.file(std::string(name) + ".pvd"), series);

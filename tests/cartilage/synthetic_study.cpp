@@ -78,7 +78,7 @@ snapshot make_snapshot(std::mt19937_64& random, lacuna::cartilage_zone zone, cha
         }
     for (study_crack const& c : s.run.cracks) s.damage.cracks.push_back({{c.x, c.y}, {1, 0}, {}});
     // A front at 120 µm/ns, and a pressure of a hundredth of the stress behind it at half that speed.
-    for (int step = 0; step <= 60; ++step) {
+    for (int step = 1; step <= 60; ++step) {
         front_profile f;
         f.time = 0.2e-9 * step;
         for (int layer = 0; layer < 15; ++layer) {

@@ -5,6 +5,8 @@
 #include <string_view>
 
 #include <lacuna/observe/crack_record.hpp>
+#include <lacuna/pores/explicit_flow.hpp>
+#include <lacuna/pores/triangulation.hpp>
 #include <lacuna/simulation/checkpoint.hpp>
 
 #include "fuzz/corpus.hpp"
@@ -17,6 +19,7 @@ namespace {
 
 struct model : lacuna::default_model<2> {
     using damping = lacuna::viscous_damping;
+    using flow = lacuna::explicit_flow;
 };
 using record = lacuna::crack_record<lacuna::break_event<2>>;
 
@@ -30,10 +33,17 @@ lacuna::simulation<model> make() {
     lacuna::simulation_parameters<model> p;
     p.materials[0] = {1000, {1e3, 1e3, 0.5}, {1e3, 1e3, 20, 20}};
     p.time_step = 0.01;
+    p.flow.bulk_modulus = 1e3;
+    p.flow.initial_pressure = 10;
+    p.flow.aperture = {0.1, 10, 1};
+    p.remeshing = {lacuna::remesh_rule::when_needed, 2, true};
     p.walls = {{{0, -0.49}, {0, 1}, p.materials[0].contact}};
     lacuna::simulation<model> run(discs, p);
     run.apply(3, {1, 1}, 0, 10);
     for (std::size_t k = 0; k < run.size(); ++k) run.set_velocity(k, {0.1 * double(k % 3), -0.1 * double(k % 2)});
+    run.fill_pores([](auto points, double const* radii) {
+        return lacuna::make_pore_network(lacuna::triangulate_body(points, radii), points, radii);
+    });
     return run;
 }
 

@@ -104,6 +104,13 @@ TEST_CASE("pictures are written whole, as PNG and SVG of the same size") {
     CHECK(dir.entries() == 2);
 }
 
+TEST_CASE("the same drawing gives the same bytes") {
+    scratch_directory dir;
+    for (char const* stem : {"a", "b"}) lacuna::save_damage(dir.file(stem), small_scene());
+    CHECK(bytes_of(dir.file("a.svg")) == bytes_of(dir.file("b.svg")));
+    CHECK(bytes_of(dir.file("a.png")) == bytes_of(dir.file("b.png")));
+}
+
 TEST_CASE("a drawing that fails leaves no file and an earlier one untouched") {
     scratch_directory dir;
     for (char const* name : {"a.png", "a.svg"}) {

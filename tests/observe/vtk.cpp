@@ -48,3 +48,21 @@ TEST_CASE("a .vtp file gives back what was put in", "[vtk]") {
     s.connectivity[0] = 3;
     REQUIRE_THROWS_WITH(lacuna::vtk_text(s), contains_text("vtk_surface.connectivity = 3"));
 }
+
+TEST_CASE("tetrahedra go into a .vtu file, four corners each", "[vtk]") {
+    lacuna::vtk_surface s;
+    s.kind = lacuna::vtk_surface::cells::tetrahedra;
+    s.coordinates = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
+    s.add_cell({0, 1, 2, 3});
+    s.cell_data = {{"pressure", 1, {7}}};
+    REQUIRE(std::string(s.ending()) == ".vtu");
+    auto const text = lacuna::vtk_text(s);
+    REQUIRE_THAT(text, contains_text("type=\"UnstructuredGrid\""));
+    REQUIRE(read_array<std::uint8_t>(text, "types") == std::vector<std::uint8_t>{10});
+    REQUIRE(read_array<double>(text, "pressure") == std::vector<double>{7});
+    s.cell_data[0].name = "p<q";
+    REQUIRE_THROWS_WITH(lacuna::vtk_text(s), contains_text("vtk_surface array = p<q: must be a name without"));
+    s.cell_data.clear();
+    s.add_cell({0, 1, 2});
+    REQUIRE_THROWS_WITH(lacuna::vtk_text(s), contains_text("four corners per tetrahedron"));
+}

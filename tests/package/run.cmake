@@ -1,25 +1,100 @@
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# Installs Lacuna into a scratch folder (WAY=find_package), then configures, builds and runs the consumer.
+# Brings Lacuna to a consumer by WAY, then configures, builds and runs it. EXTENT=core: without optional components.
 
 cmake_minimum_required(VERSION 3.25)
 
-function(run)
+# run(command...): sets `said`, its output.
+macro(run)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE said ERROR_VARIABLE said)
   message("${said}")
   if(NOT result EQUAL 0)
     list(JOIN ARGN " " command)
     message(FATAL_ERROR "failed with ${result}: ${command}")
   endif()
+endmacro()
+function(expect what found wanted)
+  string(STRIP "${found}" found)
+  if(NOT found STREQUAL wanted)
+    message(FATAL_ERROR "${what}: '${found}', expected '${wanted}'")
+  endif()
 endfunction()
 
 file(REMOVE_RECURSE "${SCRATCH}")
-if(WAY STREQUAL "find_package")
-  run("${CMAKE_COMMAND}" --install "${BUILT}" --prefix "${SCRATCH}/prefix")
+file(MAKE_DIRECTORY "${SCRATCH}")
+set(tools -G "${GENERATOR}" -D "CMAKE_MAKE_PROGRAM=${MAKE_PROGRAM}" -D "CMAKE_CXX_COMPILER=${COMPILER}"
+  -D CMAKE_BUILD_TYPE=Debug)
+string(REPLACE "," ";" ALL_COMPONENTS "${ALL_COMPONENTS}")
+set(choices "")
+set(others "")
+if(EXTENT STREQUAL "core")
+  set(COMPONENTS "")
+  list(JOIN ALL_COMPONENTS "," others)
+  foreach(component IN LISTS ALL_COMPONENTS)
+    string(TOUPPER ${component} upper)
+    list(APPEND choices -D "LACUNA_${upper}=OFF")
+  endforeach()
 endif()
-run("${CMAKE_COMMAND}" -G "${GENERATOR}" -S "${CMAKE_CURRENT_LIST_DIR}/${WAY}" -B "${SCRATCH}/build"
-  -D "CMAKE_MAKE_PROGRAM=${MAKE_PROGRAM}" -D "CMAKE_CXX_COMPILER=${COMPILER}" -D CMAKE_BUILD_TYPE=Debug
-  -D "CMAKE_PREFIX_PATH=${SCRATCH}/prefix" -D "LACUNA_DIR=${SOURCE}" -D "EXPECTED_VERSION=${VERSION}"
-  -D "EXPECTED_COMPONENTS=${COMPONENTS}")
+set(project "${CMAKE_CURRENT_LIST_DIR}/${WAY}")
+set(prefix "${SCRATCH}/prefix")
+set(clone "")
+set(commit "")
+
+# cpack and install want all programs of a build first: this one has none.
+if(WAY STREQUAL "debian" OR (WAY STREQUAL "find_package" AND EXTENT STREQUAL "core"))
+  run("${CMAKE_COMMAND}" ${tools} -S "${SOURCE}" -B "${SCRATCH}/lacuna" ${choices} -D LACUNA_BUILD_TESTS=OFF
+    -D LACUNA_BUILD_EXAMPLES=OFF -D LACUNA_BUILD_BENCH=OFF)
+  set(BUILT "${SCRATCH}/lacuna")
+endif()
+if(WAY STREQUAL "find_package")
+  run("${CMAKE_COMMAND}" --install "${BUILT}" --prefix "${prefix}")
+elseif(WAY STREQUAL "fetch_content")
+  set(clone "${SCRATCH}/clone")
+  run("${GIT}" -c "safe.directory=*" clone --quiet "${SOURCE}" "${clone}")
+  run("${GIT}" -C "${clone}" rev-parse HEAD)
+  string(STRIP "${said}" commit)
+elseif(WAY STREQUAL "debian")
+  run("${CMAKE_CPACK_COMMAND}" -G DEB -B "${SCRATCH}/deb" --config "${BUILT}/CPackConfig.cmake")
+  set(package "${SCRATCH}/deb/liblacuna-dev_${VERSION}_all.deb")
+  run(dpkg-deb --field "${package}" Version)
+  expect("the package's version" "${said}" "${VERSION}")
+  run(dpkg-deb --extract "${package}" "${SCRATCH}/root")
+  set(prefix "${SCRATCH}/root/usr")
+  set(project "${CMAKE_CURRENT_LIST_DIR}/find_package")
+endif()
+
+run("${CMAKE_COMMAND}" ${tools} -S "${project}" -B "${SCRATCH}/build" ${choices}
+  -D "CMAKE_PREFIX_PATH=${prefix}" -D "LACUNA_DIR=${SOURCE}" -D "LACUNA_CLONE=${clone}" -D "LACUNA_COMMIT=${commit}"
+  -D "EXPECTED_VERSION=${VERSION}" -D "EXPECTED_COMPONENTS=${COMPONENTS}" -D "OTHER_COMPONENTS=${others}")
 run("${CMAKE_COMMAND}" --build "${SCRATCH}/build")
 run("${SCRATCH}/build/consumer")
+# The consumer prints what version.hpp says.
+expect("version.hpp" "${said}" "lacuna ${VERSION}")
+if(NOT WAY STREQUAL "debian")
+  return()
+endif()
+
+# pkg-config and the bare compiler, on the program of the README, which says what it prints.
+set(ENV{PKG_CONFIG_PATH} "${prefix}/share/pkgconfig")
+run("${PKG_CONFIG}" --modversion lacuna)
+expect("the version of lacuna.pc" "${said}" "${VERSION}")
+string(REPLACE "," ";" COMPONENTS "${COMPONENTS}")
+foreach(component IN LISTS COMPONENTS)
+  run("${PKG_CONFIG}" --print-errors --exists "lacuna-${component} = ${VERSION}")
+endforeach()
+file(READ "${SOURCE}/README.md" readme)
+string(REGEX MATCH "```cpp\n(#include[^`]*)```\n\nIt prints `([^`]*)`" found "${readme}")
+if(NOT found)
+  message(FATAL_ERROR "README.md has no program, or does not say what it prints")
+endif()
+set(prints "${CMAKE_MATCH_2}")
+file(WRITE "${SCRATCH}/program.cpp" "${CMAKE_MATCH_1}")
+run("${PKG_CONFIG}" --cflags --libs lacuna)
+separate_arguments(flags UNIX_COMMAND "${said}")
+run("${COMPILER}" -std=c++20 -O1 "${SCRATCH}/program.cpp" ${flags} -o "${SCRATCH}/program")
+run("${SCRATCH}/program")
+expect("the program of the README" "${said}" "${prints}")
+string(REGEX MATCH "find_package\\(lacuna ([0-9.]+)" found "${readme}")
+if(NOT "${VERSION}." MATCHES "^${CMAKE_MATCH_1}\\.")
+  message(FATAL_ERROR "README.md asks for version ${CMAKE_MATCH_1}, this is ${VERSION}")
+endif()

@@ -329,13 +329,13 @@ TEST_CASE("a facet's section conducts as a tube of its hydraulic radius") {
 }
 
 TEST_CASE("steady flow through a body of spheres is that of a full system of equations") {
-    auto const b = bodies::scattered_spheres(47, 4, 0.6, 0.95);
-    auto p = space_body::settings<section_solver>();
-    auto const net = b.network(flow_boundaries(reservoir("in", on_side{body_side::back}, 5.0),
-                                               reservoir("out", on_side{body_side::front}, 0.0)));
+    auto const b = bodies::scattered_spheres(47, 4, 0.62, 0.75);
+    auto const net = make_pore_network(triangulate_body(b.points(), b.r.data(), 4.0), b.points(), b.r.data(),
+                                       flow_boundaries(reservoir("in", on_side{body_side::back}, 5.0),
+                                                       reservoir("out", on_side{body_side::front}, 0.0)));
     implicit_flow_with<hydraulic_section>::solver<double, 3> flow({}, net, 1.0, b.points(), b.r.data());
-    (void)p;
-    for (int s = 0; s < 200; ++s) flow.advance<false>(1e20);
+    double const dt = 1e4 * flow_critical_time_step(flow.network(), flow.settings().bulk_modulus);
+    for (int s = 0; s < 200; ++s) flow.advance<false>(dt);
     auto const& now = flow.network();
     auto const n = Eigen::Index(now.pores());
     Eigen::MatrixXd a = Eigen::MatrixXd::Zero(n, n);
@@ -352,9 +352,6 @@ TEST_CASE("steady flow through a body of spheres is that of a full system of equ
         a(i, j) -= c;
         a(j, i) -= c;
     }
-    // A pore whose facets are all shut keeps its pressure.
-    for (Eigen::Index i = 0; i < n; ++i)
-        if (a(i, i) == 0) a(i, i) = 1;
     Eigen::VectorXd const exact = a.ldlt().solve(wanted);
     for (Eigen::Index i = 0; i < n; ++i) REQUIRE_THAT(now.pressure[std::size_t(i)], WithinAbs(exact[i], 1e-9 * 5));
     REQUIRE(now.sources[0].rate > 0);

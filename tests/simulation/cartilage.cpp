@@ -9,7 +9,6 @@
 #include <lacuna/pores/triangulation.hpp>
 #include <lacuna/simulation.hpp>
 
-#include "../../examples/cartilage/cartilage_model.hpp"
 #include "simulation/specimens.hpp"
 
 using namespace lacuna;
@@ -37,17 +36,19 @@ struct energy_kept {
     void on_end(Simulation const&) {}
 };
 
-/// The paper's model on a small surface zone, with water in the pores.
-outcome coupled_run(double load_MPa, long long steps) {
-    auto const s = small_specimen(specimen_preset::literal);
-    simulation<cartilage::wet_model> sim(s.discs, cartilage::model_parameters<cartilage::wet_model>(s, 0.01));
-    cartilage::set_up(sim, s, load_MPa * 1e6);
+/// The paper's model with water in the pores.
+outcome coupled_run(cartilage_specimen<double> const& s, double load_MPa, long long steps) {
+    simulation<specimens::wet> sim(s.discs, specimens::parameters(s));
+    cartilage::set_up(sim, s, load_MPa * 1e6, {});
     crack_record<break_event<2>> cracks;
     sim.run(steps, cracks, energy_kept{});
     double highest = 0;
     for (std::size_t p = 0; p < sim.flow().network().pores(); ++p)
         highest = std::max(highest, std::fabs(sim.flow().network().pressure[p]));
     return {cracks.events().size(), sim.energy(), highest};
+}
+outcome coupled_run(double load_MPa, long long steps) {
+    return coupled_run(small_specimen(specimen_preset::literal), load_MPa, steps);
 }
 
 } // namespace
@@ -65,6 +66,16 @@ TEST_CASE("cartilage cracks far above its capacity and not far below") {
 
 TEST_CASE("the energy of a coupled run with cracks, friction and fluid adds up") {
     auto const run = coupled_run(60, 3000);
+    REQUIRE(run.broken > 0);
+    REQUIRE(run.energy.friction > 0);
+    REQUIRE(run.energy.fluid_storage > 0.01 * run.energy.largest());
+    REQUIRE_THAT(run.energy.residual(), WithinAbs(0, 1e-3 * run.energy.largest()));
+}
+
+TEST_CASE("the same of the paper's specimen, 120 by 300 um") {
+    auto const s = make_cartilage_specimen<double>({});
+    REQUIRE(s.discs.size() > 3000);
+    auto const run = coupled_run(s, 60, 1000);
     REQUIRE(run.broken > 0);
     REQUIRE(run.energy.friction > 0);
     REQUIRE(run.energy.fluid_storage > 0.01 * run.energy.largest());
@@ -105,12 +116,12 @@ TEST_CASE("the same with water that flows, and its terms among each other") {
 }
 
 TEST_CASE("a pore that is turned over stops the run") {
-    auto p = cartilage::model_parameters<cartilage::wet_model>(specimens::small(), 0.01);
+    auto p = specimens::parameters(specimens::small());
     p.walls.clear();
     p.time_step = 1e-9;
     packing<double, 2> discs;
     for (vec<double, 2> const x : {vec<double, 2>{0, 0}, {3e-6, 0}, {1.5e-6, 2e-6}}) discs.add(x, 0.5e-6, 1);
-    simulation<cartilage::wet_model> sim(discs, p);
+    simulation<specimens::wet> sim(discs, p);
     sim.fill_pores([](points_view<double, 2> points, double const* radii) {
         return make_pore_network(regular_triangulation(points, radii), points, radii);
     });
@@ -141,8 +152,8 @@ TEST_CASE("a symmetric packing under a symmetric load stays symmetric") {
         REQUIRE(norm(s.discs.position[nearest] - mirrored) < 1e-9 * s.discs.radius[i]);
         partner[i] = nearest;
     }
-    simulation<cartilage::wet_model> sim(s.discs, cartilage::model_parameters<cartilage::wet_model>(s, 0.01));
-    cartilage::set_up(sim, s, 100e6);
+    simulation<specimens::wet> sim(s.discs, specimens::parameters(s));
+    cartilage::set_up(sim, s, 100e6, {});
     sim.run(500);
     double moved = 0, apart = 0;
     for (std::size_t i = 0; i < sim.size(); ++i) {

@@ -294,7 +294,7 @@ TEST_CASE("every setting that matters is part of a checkpoint's identity", "[che
     using settings = lacuna::simulation_parameters<specimens::wet>;
     auto const s = specimens::small();
     auto const hash = [&](auto const& change) {
-        auto p = cartilage::model_parameters<specimens::wet>(s, 0.01);
+        auto p = specimens::parameters(s);
         change(p);
         lacuna::simulation<specimens::wet> run(s.discs, p);
         return lacuna::detail::settings_hash(run);

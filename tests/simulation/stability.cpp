@@ -174,6 +174,8 @@ TEST_CASE("lattices in space: the bound stays below the infinite lattice's limit
                 if (name != "chain3D") CHECK(run.limits().rigorous <= limit * (1 + 1e-9));
                 CHECK(run.limits().rigorous >= 0.6 * limit);
                 REQUIRE(stays(packing, p, 0.995 * limit, rotation, 300));
+                // A specimen of a few layers lacks the longest waves, or the shortest: its limit is a little higher.
+                REQUIRE_FALSE(stays(packing, p, 1.15 * limit, rotation, 300));
             }
 }
 

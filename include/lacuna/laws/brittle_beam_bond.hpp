@@ -79,7 +79,7 @@ struct brittle_beam_bond {
     }
 
     template <int Dim, class T>
-    static moment_stiffness<T> against_turning(parameters<T> const& p, T radius_i, T radius_j) {
+    static moment_stiffness<T> against_turning(parameters<T> const& p, T radius_i, T radius_j, T /*distance*/ = T(0)) {
         T r = min(radius_i, radius_j);
         T r2 = r * r * p.bending_ratio;
         if constexpr (Dim == 2)

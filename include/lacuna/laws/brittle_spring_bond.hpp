@@ -22,11 +22,9 @@ struct smaller_particle_area {
     }
 };
 
-/// The safety zone of the paper's Fig. 4: a rectangle. Beyond the tensile limit or the shear limit the bond
-/// breaks, and where both are exceeded in one step, in the mode whose limit is exceeded by the larger ratio.
-/// Under compression the force stays at the tensile limit.
-struct box_envelope {
-    static constexpr bool crushes = true;
+/// What an envelope has beside its judge(), when it needs no numbers of its own.
+struct plain_envelope {
+    static constexpr bool crushes = true; ///< under compression the force stays at the tensile limit
     struct material {
         void validate(std::string const&) const {}
     };
@@ -38,6 +36,12 @@ struct box_envelope {
     struct verdict {
         mask_t<T> broken, in_tension;
     };
+};
+
+/// The safety zone of the paper's Fig. 4: a rectangle. Beyond the tensile limit or the shear limit the bond
+/// breaks, and where both are exceeded in one step, in the mode whose limit is exceeded by the larger ratio.
+/// Under compression the force stays at the tensile limit.
+struct box_envelope : plain_envelope {
     template <class T>
     static verdict<T> judge(parameters<T> const&, T normal, T shear, T tensile_limit, T shear_limit) {
         return judge(normal, shear, tensile_limit, shear_limit);

@@ -8,6 +8,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #if __has_include(<cairo/cairo.h>)
@@ -49,8 +50,7 @@ public:
     using point = vec<double, 2>;
 
     /// Draws with `context`, which must outlive the canvas, on a page of width x height pixels.
-    canvas(cairo_t* context, double width, double height) noexcept
-        : context_(context), width_(width), height_(height) {
+    canvas(cairo_t* context, double width, double height) noexcept : context_(context), width_(width), height_(height) {
         cairo_set_line_cap(context_, CAIRO_LINE_CAP_ROUND);
         cairo_set_line_join(context_, CAIRO_LINE_JOIN_ROUND);
     }
@@ -93,9 +93,7 @@ public:
         cairo_move_to(context_, from[0], from[1]);
         cairo_line_to(context_, to[0], to[1]);
     }
-    void add_rectangle(rectangle const& r) noexcept {
-        cairo_rectangle(context_, r.left, r.low, r.width(), r.height());
-    }
+    void add_rectangle(rectangle const& r) noexcept { cairo_rectangle(context_, r.left, r.low, r.width(), r.height()); }
     /// \param corners any range of page points
     template <class Corners>
     void add_polygon(Corners const& corners) noexcept {
@@ -184,14 +182,37 @@ inline void check_cairo(cairo_status_t status, std::string const& path) {
     if (status != CAIRO_STATUS_SUCCESS)
         throw std::runtime_error("cannot draw " + path + ": " + cairo_status_to_string(status));
 }
+inline cairo_status_t write_to_text(void* text, unsigned char const* bytes, unsigned int count) {
+    static_cast<std::string*>(text)->append(reinterpret_cast<char const*>(bytes), count);
+    return CAIRO_STATUS_SUCCESS;
+}
+/// cairo numbers its surfaces through the life of a program: counted from 1 the same drawing has the same bytes.
+inline std::string renumber_surfaces(std::string const& svg) {
+    constexpr std::string_view mark = "surface";
+    std::vector<std::string> known;
+    std::string out;
+    std::size_t from = 0;
+    for (std::size_t at = svg.find(mark); at != std::string::npos; at = svg.find(mark, from)) {
+        std::size_t const first = at + mark.size();
+        std::size_t const end = std::min(svg.find_first_not_of("0123456789", first), svg.size());
+        out.append(svg, from, first - from);
+        from = end;
+        if (end == first) continue;
+        std::string const number = svg.substr(first, end - first);
+        std::size_t const place = std::size_t(std::find(known.begin(), known.end(), number) - known.begin());
+        if (place == known.size()) known.push_back(number);
+        out += std::to_string(place + 1);
+    }
+    return out.append(svg, from);
+}
 inline cairo_status_t write_to_file(void* file, unsigned char const* bytes, unsigned int count) {
     return std::fwrite(bytes, 1, count, static_cast<std::FILE*>(file)) == count ? CAIRO_STATUS_SUCCESS
                                                                                 : CAIRO_STATUS_WRITE_ERROR;
 }
 } // namespace detail
 
-/// Draws a page of width x height pixels into a file, whole or not at all. The name's end chooses the kind:
-/// ".png" or ".svg". \param draw called with a canvas&
+/// Draws a page of width x height pixels into a file, whole or not at all; the same drawing gives the same bytes. The
+/// name's end chooses the kind: ".png" or ".svg". \param draw called with a canvas&
 /// \throws std::invalid_argument for another ending or a size not from 1 to 30000
 /// \throws std::runtime_error when the file cannot be written
 template <class Draw>
@@ -203,8 +224,9 @@ void save_canvas(std::string const& path, double width, double height, Draw cons
     if (!svg && ending != ".png") refuse("save_canvas.path", path, "a name that ends in .png or .svg");
 
     whole_file file(path);
+    std::string text;
     detail::cairo_surface const surface(
-        svg ? cairo_svg_surface_create_for_stream(detail::write_to_file, file.handle(), width, height)
+        svg ? cairo_svg_surface_create_for_stream(detail::write_to_text, &text, width, height)
             : cairo_image_surface_create(CAIRO_FORMAT_RGB24, int(std::ceil(width)), int(std::ceil(height))));
     detail::check_cairo(cairo_surface_status(surface.get()), path);
     {
@@ -218,6 +240,7 @@ void save_canvas(std::string const& path, double width, double height, Draw cons
                             path);
     cairo_surface_finish(surface.get());
     detail::check_cairo(cairo_surface_status(surface.get()), path);
+    if (svg) file.write(detail::renumber_surfaces(text));
     file.commit();
 }
 

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "output.hpp"
+
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+#include <lacuna/core/error.hpp>
+#include <lacuna/observe/canvas_file.hpp>
+
+namespace uniaxial {
+
+namespace {
+
+std::string csv_of(outcome const& o) {
+    std::string text = "strain,stress_Pa,middle_strain,middle_lateral_strain,tension_cracks,shear_cracks\n";
+    for (auto const& s : o.curve)
+        text += lacuna::to_text(s.strain) + "," + lacuna::to_text(s.stress) + "," + lacuna::to_text(s.middle_strain) + "," +
+                lacuna::to_text(s.lateral_strain) + "," + std::to_string(s.tension_cracks) + "," +
+                std::to_string(s.shear_cracks) + "\n";
+    return text;
+}
+
+/// Of a quantity that should be zero, its value.
+double error_of(figure const& f) { return std::fabs(*f.reference != 0 ? f.value / *f.reference - 1 : f.value); }
+
+} // namespace
+
+std::string to_json(outcome const& o) {
+    nlohmann::ordered_json all;
+    auto const& q = o.asked;
+    all["specimen"] = q.specimen == specimen_kind::lattice ? "lattice" : "random";
+    all["particles"] = o.particles;
+    all["bonds"] = o.bonds;
+    all["steps"] = o.steps;
+    all["time_step"] = o.time_step;
+    all["settings"] = {{"width", q.width}, {"height", q.height}, {"radius", q.radius}, {"thickness", q.thickness},
+                       {"seed", q.seed}, {"bond_modulus", q.bond_modulus}, {"shear_ratio", q.shear_ratio},
+                       {"tensile_strength", q.tensile_strength}, {"cohesion", q.cohesion},
+                       {"internal_friction", q.internal_friction}, {"friction", q.friction},
+                       // null: no scatter; JSON has no infinity
+                       {"weibull_modulus", q.weibull_modulus}, {"elastic", q.elastic}, {"strain", q.strain},
+                       {"steps", q.steps}};
+    all["figures"] = nlohmann::ordered_json::array();
+    for (auto const& f : o.figures()) {
+        nlohmann::ordered_json row{{"quantity", f.quantity}, {"unit", f.unit}, {"value", f.value}};
+        if (f.reference) {
+            row["reference"] = *f.reference;
+            row["relative_error"] = error_of(f);
+        }
+        all["figures"].push_back(row);
+    }
+    return all.dump(2) + "\n";
+}
+
+void print(std::FILE* out, outcome const& o) {
+    std::fprintf(out, "%zu particles, %zu bonds, %lld steps of %.3g s\n", o.particles, o.bonds, o.steps, o.time_step);
+    for (auto const& f : o.figures()) {
+        std::fprintf(out, "  %-32s %14.6g %-3s", f.quantity.c_str(), f.value, f.unit.c_str());
+        if (f.reference) std::fprintf(out, " closed form %.6g, error %.2g", *f.reference, error_of(f));
+        std::fputc('\n', out);
+    }
+}
+
+void write_files(std::filesystem::path const& directory, outcome const& o) {
+    lacuna::whole_file csv((directory / "uniaxial.csv").string()), json((directory / "uniaxial.json").string());
+    csv.write(csv_of(o));
+    json.write(to_json(o));
+    save_picture((directory / "uniaxial").string(), o);
+    csv.commit();
+    json.commit();
+}
+
+} // namespace uniaxial

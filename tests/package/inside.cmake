@@ -1,0 +1,19 @@
+# SPDX-License-Identifier: BSD-3-Clause
+#
+# The consumer whose project Lacuna is a part of, from the folder LACUNA_DIR: no test, no example comes with it.
+
+include("${CMAKE_CURRENT_LIST_DIR}/checks.cmake")
+foreach(target IN ITEMS test_core lacuna_test_main cartilage)
+  if(TARGET ${target})
+    message(FATAL_ERROR "${target} is built inside another project")
+  endif()
+endforeach()
+get_property(tests DIRECTORY "${LACUNA_DIR}" PROPERTY TESTS)
+if(tests)
+  message(FATAL_ERROR "tests are added to another project: ${tests}")
+endif()
+file(WRITE "${CMAKE_CURRENT_BINARY_DIR}/every_header.hpp" "")
+
+add_executable(consumer "${CMAKE_CURRENT_LIST_DIR}/consumer.cpp")
+target_include_directories(consumer PRIVATE "${CMAKE_CURRENT_BINARY_DIR}")
+target_link_libraries(consumer PRIVATE lacuna::all)
