@@ -92,11 +92,11 @@ int serve(Body const& s, options const& o) {
     rusage usage_now{};
     getrusage(RUSAGE_SELF, &usage_now);
     std::printf("{\"work\": \"%s\", \"particles\": %zu, \"real\": \"%s\", \"threads\": %d, \"ours\": %.6g, "
-                "\"ns_per_pair\": %.4g, \"rss_mb\": %.1f, \"steps\": %lld, \"seconds\": %.4g, \"cpu_seconds\": %.4g, \"bonds\": %zu, "
+                "\"ns_per_pair\": %.4g, \"rss_mb\": %.1f, \"resident_mb\": %.1f, \"steps\": %lld, \"seconds\": %.4g, \"cpu_seconds\": %.4g, \"bonds\": %zu, "
                 "\"contacts\": %zu, \"throats\": %zu, \"rebuilds\": %lld, \"energy_drift\": %.3g, "
                 "\"ledger_residual\": %.3g, \"momentum_drift\": %.3g, \"good\": %s, \"why\": \"%s\"}\n",
                 o.work.c_str(), r.particles, o.real.c_str(), o.threads, r.rate(), r.nanoseconds_per_pair(),
-                double(usage_now.ru_maxrss) / 1024, r.steps, r.seconds, r.cpu_seconds, r.bonds, r.contacts, r.active_throats,
+                double(usage_now.ru_maxrss) / 1024, r.resident_mb, r.steps, r.seconds, r.cpu_seconds, r.bonds, r.contacts, r.active_throats,
                 r.rebuilds, r.energy_drift, r.ledger_residual, r.momentum_drift, r.found.good ? "true" : "false",
                 r.found.why.c_str());
     return r.found.good ? 0 : 1;

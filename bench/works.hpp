@@ -134,6 +134,7 @@ struct timing {
     double seconds = 0;
     double cpu_seconds = 0; ///< of all threads; less disturbed than seconds by what else runs on the machine
     long long steps = 0;
+    double resident_mb = 0; ///< memory in use after the last run, with the sheet and what the program itself takes
     std::size_t particles = 0, pairs = 0, bonds = 0, contacts = 0, open_throats = 0, active_throats = 0;
     long long rebuilds = 0;
     double energy_drift = 0;   ///< change of the total energy over the energy stored
@@ -229,6 +230,7 @@ public:
         result_.cpu_seconds += double(std::clock() - used) / CLOCKS_PER_SEC;
         result_.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         result_.steps += steps;
+        result_.resident_mb = resident_mb();
     }
 
     lacuna::simulation<Model> const& simulation() const { return sim_; }
