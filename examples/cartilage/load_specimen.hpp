@@ -10,6 +10,7 @@
 #include <lacuna/pores/triangulation.hpp>
 
 #include "cartilage_model.hpp"
+#include "collagen_strength.hpp"
 
 /// \file
 /// The numbers of the model (Tables 1 and 2), and what its choices make of them.
@@ -31,9 +32,6 @@ typename Parameters::material material(double density, double stiffness, double 
 inline lacuna::traction_area traction_area_of(area_rule rule) {
     return rule == area_rule::disc ? lacuna::traction_area::disc : lacuna::traction_area::strip;
 }
-
-/// Strength of collagen by lacuna::cartilage_material, Pa (Table 1); the matrix has none.
-inline constexpr double collagen_strength[] = {0, 2e8, 9e8, 1e9};
 
 /// What each bond has of its own: the forces at which it breaks, by the chosen area and, of a link, its share of the
 /// strength: that of the weaker of two fibres, that of the fibre next to matrix. Empty where all is as the law has it.
@@ -127,6 +125,7 @@ template <class Model>
 std::unique_ptr<lacuna::simulation<Model>> load_specimen(specimen const& s, options const& o) {
     auto parameters = model_parameters<Model>(s, o.open);
     parameters.threads = o.threads;
+    if (o.time_step_ps) parameters.time_step = *o.time_step_ps * 1e-12;
     auto sim = std::make_unique<lacuna::simulation<Model>>(s.discs, parameters);
     set_up(*sim, s, o.load_MPa * 1e6, o.open);
     return sim;

@@ -22,7 +22,7 @@ constexpr char const* version_text = "cartilage, Lacuna " CARTILAGE_TEXT(LACUNA_
 
 /// The command line as written, before it is understood.
 struct words : model_words {
-    std::string zone, load, seed = "1", threads = "1", out, picture_every;
+    std::string zone, load, seed = "1", threads = "1", out, picture_every, time_step;
     bool quiet = false, force = false;
 };
 
@@ -50,6 +50,8 @@ options understand(words const& w, command what) {
     if (what == command::run) {
         o.load_MPa = positive_number("--load", w.load, "a number of MPa > 0");
         o.threads = whole_number<int>("--threads", w.threads, 1, 1024, "a whole number from 1 to 1024");
+        if (!w.time_step.empty())
+            o.time_step_ps = positive_number("--time-step", w.time_step, "a number of picoseconds > 0");
         if (!w.picture_every.empty())
             o.picture_every = whole_number<long long>("--picture-every", w.picture_every, 1, 1LL << 60,
                                                       "a whole number of steps > 0");
@@ -81,6 +83,8 @@ std::optional<options> parse_command_line(int argc, char const* const* argv) {
     add_specimen_options(run, w);
     run.add_option("--load", w.load, "on the top row, at once")->required()->type_name("MPA");
     add_run_options(run, w);
+    run.add_option("--time-step", w.time_step, "in place of 0.4 of the rigorous bound, stable or not")
+        ->type_name("PS");
     run.add_option("--threads", w.threads, "the results do not depend on it (1)")->type_name("N");
     run.add_option("--picture-every", w.picture_every, "a damage picture every so many steps")->type_name("STEPS");
 

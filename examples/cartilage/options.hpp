@@ -34,6 +34,7 @@ struct options {
     double length_um = 120;
     double height_um = 300;
     std::optional<double> duration_ns; ///< that of `open`; none: until quiet
+    std::optional<double> time_step_ps; ///< none: 0.4 of the rigorous bound
     int threads = 1;
     bool dry = false;
     std::string out;

@@ -20,6 +20,8 @@ namespace cartilage {
 
 namespace {
 
+constexpr long long usual_asks = 20; // of a packing, for the time left
+
 std::string name_of(options const& o) {
     return std::string(lacuna::to_string(o.zone)) + "-" + std::to_string(o.seed);
 }
@@ -130,11 +132,12 @@ std::vector<packing_result> run_packings(std::vector<packing_request> const& req
     lacuna::progress_options speak;
     speak.sink = how.progress;
     speak.terminal = lacuna::is_terminal(how.progress);
-    speak.steps = std::max<long long>(1, static_cast<long long>(open.size()));
+    speak.steps = std::max<long long>(1, usual_asks * static_cast<long long>(open.size()));
     speak.unit = nullptr;
     lacuna::progress_reporter<> progress(speak);
     std::mutex guard;
     std::size_t finished = 0;
+    long long asked = 0;
     auto const note = [&] {
         std::string text = "packings ";
         text.append(std::to_string(finished + report.packings_kept)).append(1, '/');
@@ -144,12 +147,14 @@ std::vector<packing_result> run_packings(std::vector<packing_request> const& req
     share_out(open.size(), how.jobs, [&](std::size_t k) {
         packing_request const& request = requests[open[k]];
         packing_runs runs(request.model, cache);
+        long long own = 0;
         packing_result result = find_thresholds(request.loads, [&](double load_MPa, question q) {
             std::size_t const before = runs.runs();
             probe p = runs.ask(load_MPa, q);
             std::lock_guard const lock(guard);
             report.runs += runs.runs() - before;
-            progress.update(static_cast<long long>(finished), note());
+            if (own < usual_asks) ++own, ++asked;
+            progress.update(asked, note());
             return p;
         });
         result.zone = request.model.zone;
@@ -159,9 +164,10 @@ std::vector<packing_result> run_packings(std::vector<packing_request> const& req
         report.probes_kept += runs.kept();
         done[open[k]] = std::move(result);
         ++finished;
-        progress.update(static_cast<long long>(finished), note());
+        asked += usual_asks - own;
+        progress.update(asked, note());
     });
-    progress.finish(static_cast<long long>(finished), note());
+    progress.finish(asked, note());
     if (how.report) *how.report = report;
 
     std::vector<packing_result> results;

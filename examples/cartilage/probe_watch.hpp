@@ -12,6 +12,7 @@
 #include <vector>
 
 #include <lacuna/core/error.hpp>
+#include <lacuna/observe/energy_ledger.hpp>
 #include <lacuna/observe/observer.hpp>
 
 #include "aftermath.hpp"
@@ -21,10 +22,39 @@
 
 namespace cartilage {
 
-inline constexpr double largest_residual = 0.01; // of the ledger's largest term
-inline constexpr double largest_jump = 0.1;      // of the kinetic energy in one step, over the ledger's largest term
-inline constexpr long long settled = 100;        // steps: from rest, every term of the first ones is a jump
-inline constexpr long long between_looks = 16;   // steps
+inline constexpr double largest_opening = 0.01; // of the ledger, over its largest term
+inline constexpr double largest_jump = 0.1;     // of the kinetic energy in one step, over the ledger's largest term
+inline constexpr long long settled = 100;       // steps: from rest, every term of the first ones is a jump
+inline constexpr long long between_looks = 16;  // steps
+
+/// The energy ledger of a run, kept in samples: to keep it in every step would cost a third of the run's time. A sample
+/// is a row of steps in which the ledger is kept; what it opens by stands for all steps until the next one.
+class ledger_samples {
+public:
+    static constexpr long long period = 256, length = 32;
+    static constexpr bool has(long long step) { return step < period || step % period < length; }
+
+    /// The ledger after a step that has() one.
+    void add(lacuna::energy_ledger const& ledger, long long step) {
+        largest_ = std::max(largest_, ledger.largest());
+        jump_ = !begins(step) && step > settled ? std::fabs(ledger.kinetic - kinetic_) : 0;
+        kinetic_ = ledger.kinetic;
+        here_ = ledger.residual() * (step <= period + length ? 1 : double(period) / length);
+        if (has(step + 1)) return;
+        before_ += here_;
+        here_ = 0;
+    }
+    /// By how much the ledger has opened so far, over its largest term; with its sign.
+    double opening() const { return largest_ > 0 ? (before_ + here_) / largest_ : 0; }
+    /// By how much the kinetic energy changed in the last step, the same way.
+    double jump() const { return largest_ > 0 ? jump_ / largest_ : 0; }
+
+private:
+    static bool begins(long long step) { return step == 0 || !has(step - 1); }
+
+    double largest_ = 0, kinetic_ = 0, jump_ = 0;
+    double before_ = 0, here_ = 0; // J: by earlier samples, by this one
+};
 
 /// Counts the damage of fibres and layers as it comes.
 class damage_count {
@@ -74,11 +104,12 @@ private:
     int bonds_ = 0, broken_ = 0;
 };
 
-/// Follows a run at one load: its damage, its guards, and whether the answer that is sought is certain.
+/// Follows a run at one load: its damage, its guards (the energy, and what the library throws), and whether the answer
+/// that is sought is certain.
 class probe_watch {
 public:
     static constexpr lacuna::stage stages = lacuna::stage::step | lacuna::stage::breakage;
-    static constexpr bool needs_energy = true;
+    bool needs_energy_in(long long step) const { return ledger_samples::has(step); }
 
     /// \param s has to outlive this
     probe_watch(specimen const& s, options const& o) : specimen_(s), ending_(o), damage_(s) {
@@ -117,23 +148,28 @@ public:
     template <class Simulation>
     lacuna::run_control on_step(Simulation const& sim) {
         if (stop_is_requested()) throw interruption();
-        auto const& energy = sim.energy();
-        double const last_break = result_.cracks.empty() ? 0.0 : result_.cracks.back().time;
-        if (ending_.is_quiet(energy.kinetic, sim.time(), last_break))
+        // With every break, whether the run halts there or not: it must not leave a trace in the result.
+        if (broke_ || sim.steps() % between_looks == 0) look_at_pores(sim);
+        broke_ = false;
+        double const time = sim.time();
+        bool quiet = false;
+        if (long long const step = sim.steps() - 1; ledger_samples::has(step)) {
+            energy_.add(sim.energy(), step);
+            double const last_break = result_.cracks.empty() ? 0.0 : result_.cracks.back().time;
+            quiet = ending_.is_quiet(sim.energy().kinetic, time, last_break);
+            if (energy_.jump() > largest_jump)
+                result_.invalid = "kinetic energy jumps at " + lacuna::to_text(time) + " s";
+            else if (std::fabs(energy_.opening()) > largest_opening)
+                result_.invalid = "energy ledger opens by " + lacuna::to_text(energy_.opening()) +
+                                  " of its largest term until " + lacuna::to_text(time) + " s";
+        }
+        if (quiet)
             result_.ended = "quiet";
-        else if (ending_.is_over(sim.time()))
+        else if (ending_.is_over(time))
             result_.ended = ending_.at_longest();
         else if (is_answered())
             result_.ended = name_of(sought_);
-        bool const ends = !result_.ended.empty();
-        // With every break, whether the run halts there or not: it must not leave a trace in the result.
-        if (ends || broke_ || sim.steps() % between_looks == 0) look(sim);
-        broke_ = false;
-        bool const jumps = sim.steps() > settled &&
-                           std::fabs(energy.kinetic - kinetic_) > largest_jump * energy.largest();
-        kinetic_ = energy.kinetic;
-        if (jumps) result_.invalid = "kinetic energy jumps at " + lacuna::to_text(sim.time()) + " s";
-        return ends || result_.invalid ? lacuna::run_control::stop : lacuna::run_control::go_on;
+        return result_.ended.empty() && !result_.invalid ? lacuna::run_control::go_on : lacuna::run_control::stop;
     }
 
 private:
@@ -146,10 +182,10 @@ private:
         }
     }
 
-
     /// The damage as it stands.
     void settle(double time) {
         result_.end_time = time;
+        result_.energy_residual_fraction = energy_.opening();
         result_.first_crack_time = damage_.first_crack_time;
         result_.complete_time = damage_.complete_time;
         result_.broken_fraction = damage_.broken_fraction();
@@ -161,16 +197,10 @@ private:
         }
     }
     template <class Simulation>
-    void look(Simulation const& sim) {
+    void look_at_pores([[maybe_unused]] Simulation const& sim) {
         if constexpr (requires { sim.flow().network(); })
             for (double const p : sim.flow().network().pressure)
                 result_.peak_pore_pressure = std::max(result_.peak_pore_pressure, p);
-        auto const& energy = sim.energy();
-        double const largest = energy.largest();
-        result_.energy_residual_fraction = largest > 0 ? energy.residual() / largest : 0.0;
-        if (std::fabs(result_.energy_residual_fraction) > largest_residual && !result_.invalid)
-            result_.invalid = "energy ledger opens by " + lacuna::to_text(result_.energy_residual_fraction) +
-                              " of its largest term at " + lacuna::to_text(sim.time()) + " s";
     }
 
     specimen const& specimen_;
@@ -178,7 +208,7 @@ private:
     damage_count damage_;
     question sought_ = question::end;
     probe result_;
-    double kinetic_ = 0;
+    ledger_samples energy_;
     bool broke_ = false;
 };
 

@@ -2,6 +2,7 @@
 #include "study.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cstdio>
 #include <fstream>
 #include <iterator>
@@ -91,10 +92,11 @@ std::vector<paper_picture> pictures_of(study_options const& o) {
     return own;
 }
 
-std::vector<snapshot> take_snapshots(study_options const& o) {
+std::vector<snapshot> take_snapshots(study_options const& o, pool_report& report) {
     result_cache const cache(o.cache);
     auto const pictures = pictures_of(o);
     std::vector<snapshot> shots(pictures.size());
+    std::atomic<std::size_t> runs{0}, kept_runs{0};
     share_out(pictures.size(), o.jobs, [&](std::size_t k) {
         options model = o.model;
         model.zone = pictures[k].zone;
@@ -104,14 +106,18 @@ std::vector<snapshot> take_snapshots(study_options const& o) {
         try {
             if (auto const kept = cache.find(name, key)) {
                 shots[k] = snapshot_from(*kept);
+                ++kept_runs;
                 return;
             }
         } catch (std::exception const&) {
             // Damaged: as if it were not there.
         }
         shots[k] = take_snapshot(pictures[k], model);
+        ++runs;
         cache.keep(name, key, json_of(shots[k]));
     });
+    report.runs += runs;
+    report.probes_kept += kept_runs;
     return shots;
 }
 
@@ -214,7 +220,7 @@ int study(study_options const& o) {
     how.progress = o.quiet ? nullptr : stderr;
     how.report = &report;
     result.packings = run_packings(requests_of(o), how);
-    result.snapshots = take_snapshots(o);
+    result.snapshots = take_snapshots(o, report);
     write_study(o, out, result, o.shards == 1);
     if (!o.quiet)
         std::printf("%zu runs; kept from before: %zu packings, %zu runs\n", report.runs, report.packings_kept,

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <map>
 #include <utility>
 
 #include "study_figures.hpp"
@@ -27,7 +28,8 @@ constexpr std::size_t slices = 10;
 struct crack_map {
     series tension, shear, first; ///< µm
     std::array<double, slices> tension_in{}, shear_in{};
-    std::vector<double> heights; ///< µm
+    std::vector<double> heights;          ///< µm
+    std::map<std::string, int> broken_in; ///< bonds, by the zone of their fibre
     std::size_t packings = 0, at_capacity = 0;
 
     std::size_t count() const { return heights.size(); }
@@ -41,6 +43,7 @@ crack_map crack_map_of(std::vector<packing_result const*> const& packings, doubl
         ++map.packings;
         map.at_capacity += packing->found.capacity_MPa.has_value();
         map.first.push_back({1e6 * run->cracks.front().x, 1e6 * run->cracks.front().y});
+        for (study_layer const& layer : run->layers) map.broken_in[layer.zone] += layer.broken;
         for (study_crack const& c : run->cracks) {
             double const share = 1e6 * c.y / height_um;
             auto const slice = std::size_t(std::clamp(share, 0.0, 0.999) * double(slices));
@@ -50,6 +53,22 @@ crack_map crack_map_of(std::vector<packing_result const*> const& packings, doubl
         }
     }
     return map;
+}
+
+/// Where the fibres are whose bonds broke, in a specimen of several zones.
+std::string zone_words(crack_map const& map) {
+    if (map.broken_in.size() < 2) return "";
+    int all = 0;
+    for (auto const& [zone, broken] : map.broken_in) all += broken;
+    if (all == 0) return "";
+    std::string words;
+    for (auto const zone : all_zones) {
+        auto const found = map.broken_in.find(std::string(lacuna::to_string(zone)));
+        if (found == map.broken_in.end()) continue;
+        words += (words.empty() ? " By zone: " : ", ") + found->first + " " +
+                 number_text("%.0f", 100.0 * found->second / all) + " %";
+    }
+    return words + ".";
 }
 
 std::string sentence_of(crack_map const& map, double height_um) {
@@ -62,7 +81,7 @@ std::string sentence_of(crack_map const& map, double height_um) {
            " % in tension, the others in shear; " + number_text("%.0f", 100 * top / double(map.count())) +
            " % lie in the top tenth of the height. The first crack lies " + number_text("%.0f", median(first)) +
            " µm below the top (median; quartiles " + number_text("%.0f", quantile(first, 0.25)) + " to " +
-           number_text("%.0f", quantile(first, 0.75)) + ").";
+           number_text("%.0f", quantile(first, 0.75)) + ")." + zone_words(map);
 }
 
 void draw_map(canvas& page, crack_map const& map, double length_um, double height_um, double scale) {

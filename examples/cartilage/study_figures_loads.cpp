@@ -44,6 +44,16 @@ std::string order_words(std::vector<table3_cell const*> const& zones) {
                  : " The medians rise with depth, but intervals of neighbouring zones overlap.";
 }
 
+/// How far the quartiles of each zone's packings are apart.
+std::string scatter_words(std::vector<table3_cell const*> const& zones) {
+    std::string words;
+    for (table3_cell const* cell : zones)
+        if (cell->count() > 1 && std::isfinite(cell->first_quartile) && std::isfinite(cell->third_quartile))
+            words += (words.empty() ? "" : ", ") + std::string(lacuna::to_string(cell->zone)) + " " +
+                     number_text("%.2f", cell->third_quartile / cell->first_quartile);
+    return words.empty() ? "" : " Third over first quartile: " + words + ".";
+}
+
 figure draw_threshold(std::string const& directory, study_result const& study,
                       std::vector<table3_cell const*> const& zones, threshold what) {
     std::string const name = name_of(what);
@@ -88,7 +98,7 @@ figure draw_threshold(std::string const& directory, study_result const& study,
     lacuna::save_canvas_png_svg(directory + "/" + f.stem, width, height, draw);
     f.sentence = "Medians in MPa: ";
     for (std::size_t k = 0; k < zones.size(); ++k) f.sentence += (k ? ", " : "") + median_words(*zones[k], study);
-    f.sentence += "." + order_words(zones);
+    f.sentence += "." + order_words(zones) + scatter_words(zones);
     int inside = 0, compared = 0;
     for (table3_cell const* cell : zones) {
         if (!cell->paper || cell->loads.empty()) continue;

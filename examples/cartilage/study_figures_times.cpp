@@ -88,7 +88,7 @@ void draw(canvas& page, first_crack_times const& t) {
     lacuna::draw_legend_row(page, {upper.left, 20}, width - upper.left,
                             {{legend_mark::disc, elastic_ink, "elastic"},
                              {legend_mark::ring, slow_ink, "later"},
-                             {legend_mark::dashes, slow_ink, "t √P constant"}},
+                             {legend_mark::dashes, slow_ink, "kinematic: t √P constant"}},
                             0.9 * figure_style.text_size, figure_style.ink);
 }
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "collagen_strength.hpp"
+
 namespace cartilage {
 
 namespace {
@@ -46,13 +48,17 @@ std::optional<double> speed_of(series const& front) {
     return 1e3 * td / tt;
 }
 
-/// Strength of the bonds at a depth: Table 1; the whole specimen has its zones from the top down, a third each.
+/// Strength of the fibres at a depth; the whole specimen has its zones from the top down, a third each.
 double strength_at(lacuna::cartilage_zone zone, double depth_share) {
     using lacuna::cartilage_zone;
     if (zone == cartilage_zone::whole)
         zone = depth_share < 1.0 / 3 ? cartilage_zone::surface
                                      : (depth_share < 2.0 / 3 ? cartilage_zone::middle : cartilage_zone::deep);
-    return zone == cartilage_zone::surface ? 2e8 : (zone == cartilage_zone::middle ? 9e8 : 1e9);
+    switch (zone) {
+    case cartilage_zone::surface: return collagen_strength[lacuna::surface_collagen];
+    case cartilage_zone::middle: return collagen_strength[lacuna::middle_collagen];
+    default: return collagen_strength[lacuna::deep_collagen];
+    }
 }
 
 } // namespace

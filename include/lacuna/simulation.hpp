@@ -51,7 +51,7 @@ public:
     using network_type = pore_network<typename Model::real, Model::dim>;
     using store_type = particle_store<real, dim>;
     using interactions_type = lacuna::interactions<real, dim, contact_law_type, bond_law_type, damping_type,
-                                                   typename Model::template search<real, dim>>;
+                                                   typename Model::template search<real, dim>, typename Model::domain>;
     using event_type = break_event<dim>;
 
     /// \throws std::invalid_argument for a bad packing or parameter
@@ -70,6 +70,10 @@ public:
                 return spatial_order(view_points(packing.position));
         }();
         store_ = store_type(packing, order, density, p.mass, p.thickness);
+        if constexpr (Model::domain::periodic) {
+            static_assert(!has_fluid<Model>, "pores have no images: a model with fluid has an open domain");
+            store_.set_period(p.domain.period);
+        }
         loads_ = load_set<real, dim>(p.gravity, store_.size());
         loads_.apply_gravity(store_);
         interactions_ = interactions_type(store_, packing.bonds, p.materials, p.thickness, p.interactions, p.damping,
@@ -167,14 +171,18 @@ public:
     template <observer... Observers>
     long long run(long long steps, Observers&&... observers) {
         (detail::check_observer<simulation, event_type, Observers>(), ...);
-        constexpr bool energy = (detail::needs_energy<Observers> || ...);
+        constexpr bool always = (detail::needs_energy<Observers> || ...);
+        constexpr bool sometimes = !always && (detail::samples_energy<Observers> || ...);
         announce(steps);
         if (step_ == 0) time_step_.reset();
         settle_time_step();
         (detail::notify_start(observers, *this), ...);
         long long taken = 0;
         for (bool go_on = true; go_on && taken < steps; ++taken) {
-            take_step<energy>();
+            if (sometimes && (detail::wants_energy(observers, step_) || ...))
+                take_step<always || sometimes>();
+            else
+                take_step<always>();
             for (auto const& event : events_) (detail::notify_break(observers, event, *this), ...);
             (void)std::initializer_list<int>{((go_on = detail::notify_step(observers, *this) && go_on), 0)...};
         }
@@ -190,7 +198,7 @@ public:
     double time() const { return clock_.time + double(step_ - clock_.step) * time_step(); }
     /// Failures of the last step.
     std::span<event_type const> events() const noexcept { return events_; }
-    /// Kept while an observer with needs_energy is there, or step_with_energy() is used.
+    /// Kept while an observer asks for it (see observe/observer.hpp), or step_with_energy() is used.
     energy_ledger const& energy() const noexcept { return ledger_.ledger(); }
     /// As step(), and keeps the energy ledger.
     void step_with_energy() { take_step<true>(); }

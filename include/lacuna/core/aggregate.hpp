@@ -40,7 +40,7 @@ inline constexpr bool is_vec<vec<T, N>> = true;
 } // namespace detail
 
 /// Calls visit(member) for each member of an aggregate, in their order; for the components of a vec.
-/// \tparam A an aggregate without base classes and arrays of C, of at most 20 members
+/// \tparam A an aggregate without base classes and arrays of C, of at most 24 members
 template <class A, class Visit>
 void for_each_member(A& value, Visit const& visit) {
     using type = std::remove_const_t<A>;
@@ -49,7 +49,7 @@ void for_each_member(A& value, Visit const& visit) {
         for (int k = 0; k < type::size(); ++k) visit(value[k]);
     } else {
         constexpr std::size_t n = detail::count_members<type>();
-        static_assert(n <= 20, "for_each_member: more members than it knows");
+        static_assert(n <= 24, "for_each_member: more members than it knows");
         if constexpr (n == 1) {
             auto& [a] = value;
             each(a);
@@ -110,6 +110,18 @@ void for_each_member(A& value, Visit const& visit) {
         } else if constexpr (n == 20) {
             auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, o, p, q, r, s, t, u] = value;
             each(a, b, c, d, e, f, g, h, i, j, k, l, m, o, p, q, r, s, t, u);
+        } else if constexpr (n == 21) {
+            auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, o, p, q, r, s, t, u, v] = value;
+            each(a, b, c, d, e, f, g, h, i, j, k, l, m, o, p, q, r, s, t, u, v);
+        } else if constexpr (n == 22) {
+            auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, o, p, q, r, s, t, u, v, w] = value;
+            each(a, b, c, d, e, f, g, h, i, j, k, l, m, o, p, q, r, s, t, u, v, w);
+        } else if constexpr (n == 23) {
+            auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, o, p, q, r, s, t, u, v, w, x] = value;
+            each(a, b, c, d, e, f, g, h, i, j, k, l, m, o, p, q, r, s, t, u, v, w, x);
+        } else if constexpr (n == 24) {
+            auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, o, p, q, r, s, t, u, v, w, x, y] = value;
+            each(a, b, c, d, e, f, g, h, i, j, k, l, m, o, p, q, r, s, t, u, v, w, x, y);
         }
     }
 }

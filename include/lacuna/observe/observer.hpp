@@ -21,7 +21,9 @@ enum class run_control { go_on, stop };
 
 /// An observer declares the stages it wants as `static constexpr stage stages`. Each declared stage must be
 /// callable: a misspelt or ill-typed hook is an error of compilation. With
-/// `static constexpr bool needs_energy = true` the energy ledger is kept during its runs.
+/// `static constexpr bool needs_energy = true` the energy ledger is kept during its runs; with a member
+/// `bool needs_energy_in(long long step) const` in the steps that it names, counted from 0. A ledger that was not kept
+/// in a step begins anew with the next one.
 template <class O>
 concept observer = requires {
     { std::remove_cvref_t<O>::stages } -> std::convertible_to<stage>;
@@ -31,6 +33,19 @@ namespace detail {
 
 template <class O>
 inline constexpr bool needs_energy = requires { requires std::remove_cvref_t<O>::needs_energy; };
+
+template <class O>
+inline constexpr bool samples_energy = requires(std::remove_cvref_t<O> const& o, long long step) {
+    { o.needs_energy_in(step) } -> std::convertible_to<bool>;
+};
+/// Whether an observer wants the ledger in a step.
+template <class O>
+constexpr bool wants_energy([[maybe_unused]] O const& o, [[maybe_unused]] long long step) {
+    if constexpr (samples_energy<O>)
+        return o.needs_energy_in(step);
+    else
+        return needs_energy<O>;
+}
 
 template <class Simulation, class Event, class O>
 constexpr void check_observer() {

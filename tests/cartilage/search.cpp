@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "catch.hpp"
+
+#include <cstdint>
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "cartilage/search.hpp"
+#include "cartilage/study_json.hpp"
+
+using namespace cartilage;
+
+namespace {
+
+/// A packing of which all is known: the loads from which on each question is answered yes, and loads at which no run
+/// counts. Counts what it is asked.
+struct made_up {
+    double first, capacity, complete;
+    double bad_from = 1e9, bad_to = 0;
+    std::map<double, question> asked{};
+    int calls = 0;
+
+    probe operator()(double load, question q) {
+        ++calls;
+        auto const it = asked.find(load);
+        // A run is continued, never begun anew.
+        if (it != asked.end() && it->second >= q) throw std::logic_error("asked again");
+        asked[load] = q;
+        probe p;
+        p.load_MPa = load;
+        if (load >= bad_from && load <= bad_to) {
+            p.invalid = "made up";
+            p.ended = "invalid";
+            return p;
+        }
+        if (load >= first) p.first_crack_time = 1e-9;
+        if (load >= capacity && q >= question::capacity) p.capacity_time = 2e-9;
+        if (load >= complete && q >= question::complete) p.complete_time = 3e-9;
+        p.ended = answers(p, q) ? name_of(q) : "limit";
+        return p;
+    }
+};
+
+packing_result search(made_up& packing, load_range const& range = {}) {
+    return find_thresholds(range, [&](double load, question q) { return packing(load, q); });
+}
+
+bool within_a_step(double found, double truth) { return found >= truth && found < truth * 1.021; }
+
+} // namespace
+
+TEST_CASE("The grid of loads reaches from end to end in equal ratios that are no larger than the resolution") {
+    load_range range;
+    // ln(200) / ln(1.02) = 267.6
+    CHECK(range.steps() == 268);
+    CHECK(range.load(0) == 5);
+    CHECK(range.load(268) == 1000);
+    for (int k = 1; k <= 268; ++k) {
+        CHECK(range.load(k) / range.load(k - 1) < 1.02 + 1e-3); // four digits of each load
+        CHECK(range.load(k) > range.load(k - 1));
+        CHECK(range.place(range.load(k)) == k);
+    }
+    // sqrt(5 * 1000) lies in the middle.
+    CHECK(range.load(134) == 70.71);
+    CHECK(range.place(1) == 0);
+    CHECK(range.place(1e6) == 268);
+    range.highest_MPa = 5;
+    CHECK_THROWS_AS(range.steps(), std::invalid_argument);
+    range.highest_MPa = 1000;
+    range.resolution = 0;
+    CHECK_THROWS_AS(range.steps(), std::invalid_argument);
+}
+
+TEST_CASE("The search finds each load to one step, wherever it is and wherever it begins") {
+    for (double const guess : {5.0, 45.0, 1000.0})
+        for (double const first : {5.5, 12.0, 44.0, 170.0, 700.0})
+            for (double const ratio : {1.0, 1.01, 1.3, 4.0}) {
+                made_up packing{first, first * ratio, first * ratio * ratio};
+                load_range range;
+                range.first_guess = {guess, guess, guess};
+                auto const r = search(packing, range);
+                REQUIRE(r.found.first_crack_MPa);
+                CHECK(within_a_step(*r.found.first_crack_MPa, packing.first));
+                if (packing.capacity <= 1000) {
+                    REQUIRE(r.found.capacity_MPa);
+                    CHECK(within_a_step(*r.found.capacity_MPa, packing.capacity));
+                    CHECK(r.found.no_capacity.empty());
+                } else {
+                    CHECK_FALSE(r.found.capacity_MPa);
+                    CHECK(r.found.no_capacity == "above 1000 MPa");
+                }
+                CHECK(r.found.complete_MPa.has_value() == (packing.complete <= 1000));
+                // Nine halvings of 268 steps for each load, and the way to the first bracket.
+                CHECK(packing.calls <= 3 * 15);
+            }
+}
+
+TEST_CASE("Loads out of range are none, with the side on which they lie") {
+    made_up strong{2000, 3000, 4000};
+    auto const above = search(strong);
+    CHECK_FALSE(above.found.first_crack_MPa);
+    CHECK(above.found.no_first_crack == "above 1000 MPa");
+    CHECK(above.found.no_capacity == "above 1000 MPa");
+    CHECK(above.found.no_complete == "above 1000 MPa");
+    made_up weak{1, 2, 3};
+    auto const below = search(weak);
+    CHECK_FALSE(below.found.first_crack_MPa);
+    CHECK(below.found.no_first_crack == "below 5 MPa");
+    CHECK(below.found.no_complete == "below 5 MPa");
+}
+
+TEST_CASE("Runs that do not count are passed by") {
+    // A gap in the loads of less than the runs that the search gives up after.
+    made_up packing{44, 80, 200};
+    packing.bad_from = 50;
+    packing.bad_to = 53;
+    auto const r = search(packing);
+    REQUIRE(r.found.capacity_MPa);
+    CHECK(within_a_step(*r.found.first_crack_MPa, 44));
+    CHECK(within_a_step(*r.found.capacity_MPa, 80));
+    CHECK(within_a_step(*r.found.complete_MPa, 200));
+
+    // Nothing counts around the load that is sought.
+    made_up hidden{44, 80, 200};
+    hidden.bad_from = 60;
+    hidden.bad_to = 1000;
+    auto const h = search(hidden);
+    CHECK(within_a_step(*h.found.first_crack_MPa, 44));
+    CHECK_FALSE(h.found.capacity_MPa);
+    CHECK(h.found.no_capacity.find("do not count") != std::string::npos);
+    int invalid = 0;
+    for (probe const& p : h.probes) invalid += p.invalid.has_value();
+    CHECK(invalid > 0);
+}
+
+TEST_CASE("The loads of a packing never stand in the wrong order, whatever the answers") {
+    // Answers without any order at all, from the digits of the load.
+    for (std::uint64_t salt = 1; salt < 200; ++salt) {
+        std::map<double, probe> runs;
+        auto const r = find_thresholds({}, [&](double load, question q) {
+            auto const noise = std::uint64_t(load * 1000) * 0x9e3779b97f4a7c15u * salt;
+            int const reached = int((noise >> 40) % 4);
+            probe p;
+            p.load_MPa = load;
+            if (reached > 0) p.first_crack_time = 1;
+            if (reached > 1) p.capacity_time = 2;
+            if (reached > 2) p.complete_time = 3;
+            p.ended = answers(p, q) ? name_of(q) : "limit";
+            if (!p.whole()) {
+                if (q < question::complete) p.complete_time.reset();
+                if (q < question::capacity) p.capacity_time.reset();
+            }
+            return p;
+        });
+        double const first = r.found.first_crack_MPa.value_or(r.found.no_first_crack[0] == 'b' ? 0 : 1e9);
+        double const capacity = r.found.capacity_MPa.value_or(r.found.no_capacity[0] == 'b' ? 0 : 1e9);
+        double const complete = r.found.complete_MPa.value_or(r.found.no_complete[0] == 'b' ? 0 : 1e9);
+        CHECK(first <= capacity);
+        CHECK(capacity <= complete);
+        for (std::size_t k = 1; k < r.probes.size(); ++k) CHECK(r.probes[k - 1].load_MPa < r.probes[k].load_MPa);
+    }
+}
+
+TEST_CASE("A study as text is the same study, bit for bit") {
+    study_result s;
+    s.choices = "a = 1\nb = \"x\"\n";
+    s.code = "0123";
+    s.dry = true;
+    s.length_um = 0.1 + 0.2;
+    packing_result r;
+    r.zone = lacuna::cartilage_zone::deep;
+    r.seed = UINT64_MAX;
+    r.found.first_crack_MPa = 1.0 / 3;
+    r.found.no_capacity = "above 1000 MPa";
+    probe p;
+    p.load_MPa = 45.1;
+    p.end_time = 4e-8 / 3;
+    p.ended = "capacity";
+    p.first_crack_time = 1e-9 / 7;
+    p.energy_residual_fraction = -1.25e-5 / 3;
+    p.invalid = "why \\ not";
+    p.cracks = {{1e-9 / 3, 1e-5 / 7, 2e-4 / 9, true, 3}, {2e-9, 0, 0, false, -1}};
+    p.layers = {{"deep", 2, 40, 7, 3e-9 / 11}, {"deep", 3, 1, 0, std::nullopt}};
+    r.probes = {p, probe{}};
+    s.packings = {r};
+    snapshot shot;
+    shot.figure = "11";
+    shot.run = p;
+    shot.fronts = {{1e-10 / 3, 2, {5e-6, 15e-6}, {-1e6 / 3, 0}, {2e5 / 3, -0.0}}};
+    shot.damage.right = 1.2e-4;
+    shot.damage.top = 3e-4 / 7;
+    shot.damage.particles = {{{1e-6 / 3, 2e-6}, 1.5e-6, lacuna::scene::particle_kind::fibre}};
+    shot.damage.bonds = {{{0, 1}, {2, 1.0 / 3}}};
+    shot.damage.cracks = {{{1, 2}, {0, 1}, lacuna::scene::break_mode::shear}};
+    shot.damage.pores = {{{1, 2}, -1e5 / 3}};
+    shot.damage.loads = {{{1, 2}, {0, -1}}};
+    shot.damage.walls = shot.damage.supports = {{{0, 1}, {2, 3}}};
+    shot.damage.zones = {{0, 1e-4, "deep"}};
+    shot.damage.title = "Title";
+    shot.damage.captions = {"one", "two"};
+    s.snapshots = {shot};
+
+    std::string const text = text_of(s);
+    study_result const back = study_from(text);
+    CHECK(text_of(back) == text);
+    REQUIRE(back.packings.size() == 1);
+    CHECK(back.length_um == s.length_um);
+    CHECK(back.packings[0].seed == UINT64_MAX);
+    CHECK(back.packings[0].found.first_crack_MPa == 1.0 / 3);
+    CHECK(back.packings[0].probes[0].first_crack_time == p.first_crack_time);
+    CHECK(back.packings[0].probes[0].cracks[0].x == 1e-5 / 7);
+    CHECK(back.packings[0].probes[0].cracks[0].shear);
+    CHECK(back.packings[0].probes[0].layers[0].half_broken_time == 3e-9 / 11);
+    CHECK(back.packings[0].probes[0].invalid == "why \\ not");
+    CHECK_FALSE(back.packings[0].probes[1].invalid);
+    CHECK(back.snapshots[0].fronts[0].stress[0] == -1e6 / 3);
+    CHECK(back.snapshots[0].damage.top == 3e-4 / 7);
+    CHECK(back.snapshots[0].damage.cracks[0].mode == lacuna::scene::break_mode::shear);
+    CHECK(back.snapshots[0].damage.zones[0].name == "deep");
+
+    CHECK_THROWS_AS(study_from(text.substr(0, text.size() / 2)), std::runtime_error);
+    CHECK_THROWS_AS(study_from("{}"), std::runtime_error);
+    CHECK_THROWS_AS(study_from("[1, 2]"), std::runtime_error);
+}
