@@ -1,28 +1,30 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# sh bench/compare.sh [--quick] [--million] [--json]
+# sh bench/compare.sh [--quick] [--million] [--three] [--json]
 #
 # Our works beside LAMMPS (gran/hooke/history: friction, no bonds) on the same sheets, one after the other on one core,
 # several rounds; prints medians: particle-steps a second of both, their ratio, ns a pair and peak memory of ours.
 #   --quick    fewer and shorter rounds, double precision only: under 50 s once all is built
 #   --million  also a fully bonded sheet of 1,000,000
+#   --three    blocks of spheres in space instead of sheets: works full3 and frictional3
 #   --json     a list of objects on stdout, instead of a table: work, particles, real, ours, peer, ratio, ns_per_pair,
 #              rss_mb
-# The peer's figure is for its frictional sheet, whatever our work. Where LAMMPS cannot be had, peer and ratio are null.
+# The peer's figure is for its frictional sheet or block, whatever our work. Where LAMMPS cannot be had, peer and ratio are null.
 # Exit status 1 when a work fails its physics checks; never because of a time.
 set -eu
 
 root=$(cd "$(dirname "$0")/.." && pwd)
 build="$root/build/compare"
-quick=0 million=0 json=0
+quick=0 million=0 json=0 three=0
 for option in "$@"; do
     case "$option" in
     --quick) quick=1 ;;
     --million) million=1 ;;
+    --three) three=1 ;;
     --json) json=1 ;;
     *)
-        sed -n '4,15s/^# \{0,1\}//p' "$0" >&2
+        sed -n '4,16s/^# \{0,1\}//p' "$0" >&2
         exit 2
         ;;
     esac
@@ -76,7 +78,7 @@ one_peer() {
     [ -n "$peer" ] || return 0
     load=$(sed -n '1s/.* //p' "$scratch/sheet_$1")
     if $pin "$peer" -in "$root/bench/peer.lammps" -log none -screen "$scratch/peer" -var sheet "$scratch/sheet_$1" \
-        -var load "$load" -var warm "$2" -var steps "$3" >/dev/null 2>&1; then
+        -var load "$load" -var warm "$2" -var steps "$3" -var dim "$dim" >/dev/null 2>&1; then
         awk -v n="$1" '/^Loop time of/ { rate = $(NF - 1) * $(NF - 4) / $4 } END { if (rate) print "peer", n, rate }' \
             "$scratch/peer" >>"$scratch/results"
     else
@@ -90,20 +92,22 @@ one_plain() {
 }
 
 sizes="3200 100000"
+dim=2 works_at_all="full half frictional half_fluid"
+if [ "$three" = 1 ]; then dim=3 works_at_all="full3 frictional3" million=0; fi
 reals="double float"
 if [ "$quick" = 1 ]; then rounds=3 seconds=0.3 reals=double; else rounds=5 seconds=1; fi
 if [ "$million" = 1 ]; then sizes="$sizes 1000000"; fi
 
 : >"$scratch/results"
 for particles in $sizes; do
-    works="full half frictional half_fluid"
+    works=$works_at_all
     case "$particles" in
     3200) warm=200 steps=3000 ;;
     100000) warm=10 steps=50 ;;
     *) warm=2 steps=10 works=full ;;
     esac
     [ "$quick" = 1 ] || steps=$((steps * 4))
-    "$ours" --write "$scratch/sheet_$particles" --particles "$particles" >/dev/null
+    "$ours" --write "$scratch/sheet_$particles" --work "${works%% *}" --particles "$particles" >/dev/null
     round=1
     while [ "$round" -le "$rounds" ]; do
         say "$particles particles, round $round of $rounds"
@@ -111,7 +115,7 @@ for particles in $sizes; do
             for real in $reals; do one_ours "$work" "$particles" "$real" "$seconds"; done
         done
         one_peer "$particles" "$warm" "$steps"
-        one_plain "$particles" "$seconds"
+        [ "$three" = 1 ] || one_plain "$particles" "$seconds"
         round=$((round + 1))
     done
 done

@@ -35,4 +35,16 @@ inline std::string cpu_name() {
     return "unknown";
 }
 
+/// Memory in use now, not at its peak, MB; 0 where Linux's /proc is not there.
+inline double resident_mb() {
+    std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen("/proc/self/status", "r"), [](std::FILE* f) {
+        return f ? std::fclose(f) : 0;
+    });
+    char line[256];
+    long kilobytes = 0;
+    while (file && std::fgets(line, sizeof line, file.get()))
+        if (std::sscanf(line, "VmRSS: %ld kB", &kilobytes) == 1) break;
+    return double(kilobytes) / 1024;
+}
+
 } // namespace bench

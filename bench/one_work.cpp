@@ -25,9 +25,9 @@ struct options {
 };
 
 char const usage[] =
-    "usage: bench_one_work [--work full|half|frictional|half_fluid] [--real double|float] [--particles N]\n"
+    "usage: bench_one_work [--work full|half|frictional|half_fluid|full3|frictional3] [--real double|float] [--particles N]\n"
     "                      [--sheet FILE] [--steps N | --seconds S] [--threads N]\n"
-    "       bench_one_work --write FILE [--particles N]     only makes the sheet, as a data file of LAMMPS\n";
+    "       bench_one_work --write FILE [--work W] [--particles N]  only makes the sheet or block, as a data file of LAMMPS\n";
 
 options parse(int count, char** arguments) {
     options o;
@@ -50,9 +50,9 @@ options parse(int count, char** arguments) {
     return o;
 }
 
-template <class Model>
-bench::timing measure(bench::sheet const& s, bench::work w, options const& o) {
-    bench::work_run<Model> run(s, w, o.threads);
+template <class Model, class Body>
+bench::timing measure(Body const& s, bench::work w, options const& o) {
+    bench::work_run<Model, Body> run(s, w, o.threads);
     if (o.steps > 0) {
         run.run(o.steps);
     } else {
@@ -72,6 +72,35 @@ bench::timing measure_in(bench::sheet const& s, options const& o) {
     return w == bench::work::half_fluid ? measure<bench::wet_model<Real>>(s, w, o)
                                         : measure<bench::dry_model<Real>>(s, w, o);
 }
+template <class Real>
+bench::timing measure_in(bench::block const& b, options const& o) {
+    return measure<bench::dry_model<Real, 3>>(b, bench::parse_work(o.work), o);
+}
+
+/// Writes the sheet or block, or runs its work. \return exit status
+template <class Body>
+int serve(Body const& s, options const& o) {
+    if (!o.write_file.empty()) {
+        bench::write_lammps(s, o.write_file);
+        auto const m = bench::measure(s);
+        std::printf("{\"particles\": %zu, \"contacts\": %zu, \"contacts_per_disc\": %.4f, \"mean_overlap\": %.5f, "
+                    "\"load\": %.6g, \"residual\": %.3g}\n",
+                    s.size(), m.contacts, m.contacts_per_disc, m.mean_overlap, s.load, m.residual);
+        return 0;
+    }
+    auto const r = o.real == "double" ? measure_in<double>(s, o) : measure_in<float>(s, o);
+    rusage usage_now{};
+    getrusage(RUSAGE_SELF, &usage_now);
+    std::printf("{\"work\": \"%s\", \"particles\": %zu, \"real\": \"%s\", \"threads\": %d, \"ours\": %.6g, "
+                "\"ns_per_pair\": %.4g, \"rss_mb\": %.1f, \"resident_mb\": %.1f, \"steps\": %lld, \"seconds\": %.4g, \"cpu_seconds\": %.4g, \"bonds\": %zu, "
+                "\"contacts\": %zu, \"throats\": %zu, \"rebuilds\": %lld, \"energy_drift\": %.3g, "
+                "\"ledger_residual\": %.3g, \"momentum_drift\": %.3g, \"good\": %s, \"why\": \"%s\"}\n",
+                o.work.c_str(), r.particles, o.real.c_str(), o.threads, r.rate(), r.nanoseconds_per_pair(),
+                double(usage_now.ru_maxrss) / 1024, r.resident_mb, r.steps, r.seconds, r.cpu_seconds, r.bonds, r.contacts, r.active_throats,
+                r.rebuilds, r.energy_drift, r.ledger_residual, r.momentum_drift, r.found.good ? "true" : "false",
+                r.found.why.c_str());
+    return r.found.good ? 0 : 1;
+}
 
 } // namespace
 
@@ -85,27 +114,9 @@ int main(int count, char** arguments) {
         return 2;
     }
     try {
-        auto const s = o.sheet_file.empty() ? bench::make_sheet(o.particles) : bench::read_lammps(o.sheet_file);
-        if (!o.write_file.empty()) {
-            bench::write_lammps(s, o.write_file);
-            auto const m = bench::measure(s);
-            std::printf("{\"particles\": %zu, \"contacts\": %zu, \"contacts_per_disc\": %.4f, \"mean_overlap\": %.5f, "
-                        "\"load\": %.6g, \"residual\": %.3g}\n",
-                        s.size(), m.contacts, m.contacts_per_disc, m.mean_overlap, s.load, m.residual);
-            return 0;
-        }
-        auto const r = o.real == "double" ? measure_in<double>(s, o) : measure_in<float>(s, o);
-        rusage usage_now{};
-        getrusage(RUSAGE_SELF, &usage_now);
-        std::printf("{\"work\": \"%s\", \"particles\": %zu, \"real\": \"%s\", \"threads\": %d, \"ours\": %.6g, "
-                    "\"ns_per_pair\": %.4g, \"rss_mb\": %.1f, \"steps\": %lld, \"seconds\": %.4g, \"cpu_seconds\": %.4g, \"bonds\": %zu, "
-                    "\"contacts\": %zu, \"throats\": %zu, \"rebuilds\": %lld, \"energy_drift\": %.3g, "
-                    "\"ledger_residual\": %.3g, \"momentum_drift\": %.3g, \"good\": %s, \"why\": \"%s\"}\n",
-                    o.work.c_str(), r.particles, o.real.c_str(), o.threads, r.rate(), r.nanoseconds_per_pair(),
-                    double(usage_now.ru_maxrss) / 1024, r.steps, r.seconds, r.cpu_seconds, r.bonds, r.contacts, r.active_throats,
-                    r.rebuilds, r.energy_drift, r.ledger_residual, r.momentum_drift, r.found.good ? "true" : "false",
-                    r.found.why.c_str());
-        return r.found.good ? 0 : 1;
+        if (bench::in_space(bench::parse_work(o.work)))
+            return serve(o.sheet_file.empty() ? bench::make_block(o.particles) : bench::read_block(o.sheet_file), o);
+        return serve(o.sheet_file.empty() ? bench::make_sheet(o.particles) : bench::read_lammps(o.sheet_file), o);
     } catch (std::exception const& error) {
         std::fprintf(stderr, "%s\n", error.what());
         return 1;

@@ -23,14 +23,17 @@
 namespace bench {
 
 /// What the discs of a sheet do to each other. Rows of even number are the chains of `half`.
-enum class work { full, half, frictional, half_fluid };
+/// The last two are of a block of spheres.
+enum class work { full, half, frictional, half_fluid, full3, frictional3 };
 
-inline constexpr std::array<char const*, 4> work_names{"full", "half", "frictional", "half_fluid"};
+inline constexpr std::array<char const*, 6> work_names{"full", "half", "frictional", "half_fluid", "full3", "frictional3"};
+
+inline constexpr bool in_space(work w) { return w == work::full3 || w == work::frictional3; }
 
 inline work parse_work(std::string const& name) {
     for (std::size_t w = 0; w < work_names.size(); ++w)
         if (name == work_names[w]) return work(w);
-    throw std::invalid_argument("work: '" + name + "', must be one of full, half, frictional, half_fluid");
+    throw std::invalid_argument("work: '" + name + "', must be one of full, half, frictional, half_fluid, full3, frictional3");
 }
 
 /// Constants of the work, for us and for the peer alike.
@@ -45,6 +48,7 @@ struct sheet_constants {
 
 /// A packing with rows and columns: disc number row * columns + column.
 struct sheet {
+    static constexpr int dim = 2;
     int columns = 0, rows = 0;
     double load = 0; ///< force on each free disc of the top row, downwards
     std::vector<double> x, y, radius;

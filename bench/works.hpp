@@ -14,6 +14,7 @@
 #include <lacuna/pores/triangulation.hpp>
 #include <lacuna/simulation.hpp>
 
+#include "block.hpp"
 #include "machine.hpp"
 #include "sheet.hpp"
 
@@ -23,8 +24,8 @@
 namespace bench {
 
 /// Bonds and friction, both as types in the simulator whatever the work uses of them.
-template <class Real>
-struct dry_model : lacuna::default_model<2, Real> {};
+template <class Real, int Dim = 2>
+struct dry_model : lacuna::default_model<Dim, Real> {};
 /// The same with pores, whose flow is solved in every step.
 template <class Real>
 struct wet_model : lacuna::default_model<2, Real> {
@@ -45,7 +46,7 @@ inline constexpr double sheet_thickness = 4.0 / 3 * 1.75;
 
 /// Part of the sheet's load that a work carries. Bonds start without force, so that a fully bonded sheet would be struck
 /// by all of it.
-inline double load_share(work w) { return w == work::full ? 0.05 : 1; }
+inline double load_share(work w) { return w == work::full || w == work::full3 ? 0.05 : 1; }
 
 template <class Model>
 lacuna::simulation_parameters<Model> work_parameters(int threads = 1) {
@@ -56,7 +57,7 @@ lacuna::simulation_parameters<Model> work_parameters(int threads = 1) {
     p.materials[0].contact = {c.normal_stiffness, c.shear_stiffness, c.friction};
     // Failure is tested for in every step; the strength is far beyond what the load brings.
     p.materials[0].bond = {c.normal_stiffness, c.shear_stiffness, 1e3, 1e3};
-    p.thickness = sheet_thickness;
+    if (Model::dim == 2) p.thickness = sheet_thickness;
     p.keep_pair_forces = false; // no work reads the force of a single pair
     p.time_step = c.time_step;
     p.interactions.skin = c.skin / (0.5 * (c.smallest_radius + c.largest_radius));
@@ -74,14 +75,17 @@ lacuna::simulation_parameters<Model> work_parameters(int threads = 1) {
     return p;
 }
 
+/// \param s sheet or block
 /// \param free no disc held and none loaded: momentum is then conserved
-template <class Model>
-lacuna::simulation<Model> make_simulation(sheet const& s, work w, int threads = 1, bool free = false) {
+template <class Model, class Body>
+lacuna::simulation<Model> make_simulation(Body const& s, work w, int threads = 1, bool free = false) {
     using real = typename Model::real;
     lacuna::simulation<Model> sim(to_packing<real>(s, w), work_parameters<Model>(threads));
     for (std::size_t k = 0; k < s.size() && !free; ++k) {
         if (s.held(k)) sim.fix(k);
-        if (s.loaded(k)) sim.apply(k, {0, -load_share(w) * s.load});
+        lacuna::vec<double, Model::dim> down{};
+        down[1] = -load_share(w) * s.load;
+        if (s.loaded(k)) sim.apply(k, down);
     }
     if constexpr (lacuna::has_fluid<Model>)
         sim.fill_pores([&](auto points, real const* radii) {
@@ -100,8 +104,8 @@ struct energy_state {
     double total = 0;  ///< kinetic + strain + fluid + potential of the load
     double stored = 0; ///< kinetic + strain + fluid
 };
-template <class Model>
-energy_state energy_of(lacuna::simulation<Model>& sim, sheet const& s, work w) {
+template <class Model, class Body>
+energy_state energy_of(lacuna::simulation<Model>& sim, Body const& s, work w) {
     // The ledger is that of the positions at which the forces were found: those before the step.
     double raised = 0;
     for (std::size_t k = 0; k < s.size(); ++k)
@@ -130,6 +134,7 @@ struct timing {
     double seconds = 0;
     double cpu_seconds = 0; ///< of all threads; less disturbed than seconds by what else runs on the machine
     long long steps = 0;
+    double resident_mb = 0; ///< memory in use after the last run, with the sheet and what the program itself takes
     std::size_t particles = 0, pairs = 0, bonds = 0, contacts = 0, open_throats = 0, active_throats = 0;
     long long rebuilds = 0;
     double energy_drift = 0;   ///< change of the total energy over the energy stored
@@ -141,41 +146,57 @@ struct timing {
 };
 
 /// Linear and angular momentum of all particles, and the sums of their magnitudes.
+template <int Dim>
 struct momenta {
-    double x = 0, y = 0, spin = 0, linear = 0, angular = 0;
+    lacuna::vec<double, Dim> momentum{};
+    lacuna::vec<double, lacuna::rotation_dim<Dim>> spin{};
+    double linear = 0, angular = 0;
 };
 template <class Model>
-momenta momenta_of(lacuna::simulation<Model> const& sim) {
-    momenta sum;
+momenta<Model::dim> momenta_of(lacuna::simulation<Model> const& sim) {
+    momenta<Model::dim> sum;
     for (std::size_t k = 0; k < sim.size(); ++k) {
         auto const x = sim.position(k), v = sim.velocity(k);
-        double const m = sim.mass(k), turn = sim.moment_of_inertia(k) * sim.spin(k)[0];
-        sum.x += m * v[0];
-        sum.y += m * v[1];
-        sum.spin += m * (x[0] * v[1] - x[1] * v[0]) + turn;
-        sum.linear += m * std::hypot(v[0], v[1]);
-        sum.angular += m * std::hypot(x[0], x[1]) * std::hypot(v[0], v[1]) + std::fabs(turn);
+        double const m = sim.mass(k);
+        auto const turn = sim.spin(k) * sim.moment_of_inertia(k);
+        sum.momentum += v * m;
+        sum.spin += turn;
+        if constexpr (Model::dim == 2)
+            sum.spin[0] += m * cross(x, v);
+        else
+            sum.spin += cross(x, v) * m;
+        sum.linear += m * norm(v);
+        sum.angular += m * norm(x) * norm(v) + norm(turn);
     }
     return sum;
 }
 
-/// Change of the momentum of a small sheet in random motion that nothing holds: zero but for rounding.
+/// Change of the momentum of a small sheet or block in random motion that nothing holds: zero but for rounding.
 template <class Model>
 double momentum_drift(work w) {
-    auto sim = make_simulation<Model>(make_sheet(600), w, 1, true);
+    auto sim = [&] {
+        if constexpr (Model::dim == 2)
+            return make_simulation<Model>(make_sheet(600), w, 1, true);
+        else
+            return make_simulation<Model>(make_block(500), w, 1, true);
+    }();
     std::mt19937_64 generator(7);
-    auto const uniform = [&] { return (double(generator() >> 11) * 0x1p-53 - 0.5) * 0.1; };
+    auto const random = [&](auto& v) {
+        for (int axis = 0; axis < v.size(); ++axis) v[axis] = (double(generator() >> 11) * 0x1p-53 - 0.5) * 0.1;
+    };
     for (std::size_t k = 0; k < sim.size(); ++k) {
-        double const a = uniform(), b = uniform();
-        sim.set_velocity(k, {a, b});
-        sim.set_spin(k, {uniform()});
+        lacuna::vec<double, Model::dim> v{};
+        lacuna::vec<double, lacuna::rotation_dim<Model::dim>> turn{};
+        random(v);
+        random(turn);
+        sim.set_velocity(k, v);
+        sim.set_spin(k, turn);
     }
     auto const before = momenta_of(sim);
     sim.run(300);
     auto const after = momenta_of(sim);
     double const linear = std::max(before.linear, after.linear), angular = std::max(before.angular, after.angular);
-    return std::max(std::hypot(after.x - before.x, after.y - before.y) / linear,
-                    std::fabs(after.spin - before.spin) / angular);
+    return std::max(norm(after.momentum - before.momentum) / linear, norm(after.spin - before.spin) / angular);
 }
 
 /// Pairs that the step works on, fillers of the packs left out.
@@ -187,10 +208,11 @@ std::size_t count_pairs(Table const& table, std::size_t particles) {
 }
 
 /// A work that has been set up and warmed up, and can be timed in parts.
-template <class Model>
+/// \tparam Body sheet or block
+template <class Model, class Body = sheet>
 class work_run {
 public:
-    work_run(sheet const& s, work w, int threads = 1)
+    work_run(Body const& s, work w, int threads = 1)
         : sheet_(s), work_(w), sim_(make_simulation<Model>(s, w, threads)) {
         auto const limits = sim_.limits();
         result_.found.demand(sim_.settings().time_step <= limits.critical(), "time step above the stable limit",
@@ -208,6 +230,7 @@ public:
         result_.cpu_seconds += double(std::clock() - used) / CLOCKS_PER_SEC;
         result_.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         result_.steps += steps;
+        result_.resident_mb = resident_mb();
     }
 
     lacuna::simulation<Model> const& simulation() const { return sim_; }
@@ -229,7 +252,7 @@ public:
         // Friction and outflow take energy out; nothing may bring it in.
         double const tolerance = single ? 0.01 : 0.005;
         r.found.demand(r.energy_drift <= tolerance, "energy gained", r.energy_drift, tolerance);
-        if (work_ == work::full)
+        if (work_ == work::full || work_ == work::full3)
             r.found.demand(r.energy_drift >= -tolerance, "energy lost without friction", r.energy_drift, -tolerance);
         for (long long k = 0; k < few(50); ++k) sim_.step_with_energy();
         r.ledger_residual = sim_.energy().residual() / sim_.energy().largest();
@@ -261,7 +284,7 @@ private:
     /// A number of steps besides the timed ones, less for large sheets.
     long long few(long long most) const { return std::clamp(most * 3200 / (long long)sheet_.size(), 5LL, most); }
 
-    sheet sheet_;
+    Body sheet_;
     work work_;
     lacuna::simulation<Model> sim_;
     energy_state begin_;

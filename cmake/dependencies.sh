@@ -13,7 +13,7 @@ demo)
 check)
     wanted="g++ make cmake libeigen3-dev libnanoflann-dev libqhull-dev libcairo2-dev libspectra-dev libcli11-dev
         libtomlplusplus-dev nlohmann-json3-dev libcereal-dev libnlopt-dev zlib1g-dev catch2 libbenchmark-dev
-        python3-vtk9"
+        python3-vtk9 doxygen"
     # Ubuntu's package of that name is none. Without, the test that looks at a report in a browser is left out.
     if [ -r /etc/os-release ] && grep -q '^ID=debian' /etc/os-release; then wanted="$wanted chromium"; fi
     ;;

@@ -10,6 +10,7 @@
 #include <lacuna/laws/no_contact.hpp>
 #include <lacuna/motion/symplectic_euler.hpp>
 #include <lacuna/neighbors/cell_grid.hpp>
+#include <lacuna/particles/domain.hpp>
 #include <lacuna/pores/flow.hpp>
 
 namespace lacuna {
@@ -29,6 +30,7 @@ struct default_model {
     using damping = no_damping;
     using flow = no_flow;
     using integrator = symplectic_euler;
+    using domain = open_domain;
     template <class R, int D>
     using search = cell_grid<R, D>;
 };
@@ -49,6 +51,7 @@ concept model = plane_or_space<M::dim> && std::floating_point<typename M::real> 
     requires damping_policy<typename M::damping>;
     requires flow_policy<typename M::flow>;
     requires integrator<typename M::integrator>;
+    requires domain_policy<typename M::domain>;
     requires neighbor_search<typename M::template search<typename M::real, M::dim>>;
 };
 

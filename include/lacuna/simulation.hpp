@@ -51,7 +51,7 @@ public:
     using network_type = pore_network<typename Model::real, Model::dim>;
     using store_type = particle_store<real, dim>;
     using interactions_type = lacuna::interactions<real, dim, contact_law_type, bond_law_type, damping_type,
-                                                   typename Model::template search<real, dim>>;
+                                                   typename Model::template search<real, dim>, typename Model::domain>;
     using event_type = break_event<dim>;
 
     /// \throws std::invalid_argument for a bad packing or parameter
@@ -70,6 +70,10 @@ public:
                 return spatial_order(view_points(packing.position));
         }();
         store_ = store_type(packing, order, density, p.mass, p.thickness);
+        if constexpr (Model::domain::periodic) {
+            static_assert(!has_fluid<Model>, "pores have no images: a model with fluid has an open domain");
+            store_.set_period(p.domain.period);
+        }
         loads_ = load_set<real, dim>(p.gravity, store_.size());
         loads_.apply_gravity(store_);
         interactions_ = interactions_type(store_, packing.bonds, p.materials, p.thickness, p.interactions, p.damping,

@@ -89,6 +89,27 @@ void check_records() {
     }
 }
 
+/// Entries of two records: number l of entry k is 10 k + l.
+template <class T, int W>
+void check_bodies() {
+    body_column<T> column(20);
+    for (std::size_t k = 0; k < 20; ++k)
+        for (int l = 0; l < 8; ++l) column.at(k, l) = T(10 * k) + T(l);
+    REQUIRE(column.size() == 20);
+    REQUIRE(column.of(3, 1)[2] == T(36));
+    REQUIRE(column[3][2] == T(32));
+    auto const turned = turn_bodies<T, W>([&]<int N>(int k, int first) {
+        return pack<T, N>::load(column.data() + 8 * ((7 * k + 3) % 20) + first);
+    });
+    for (int k = 0; k < W; ++k)
+        for (int l = 0; l < 8; ++l) REQUIRE(turned[std::size_t(l)][k] == T(10 * ((7 * k + 3) % 20)) + T(l));
+    column.set(3, record<T>(T(-1)), 1);
+    REQUIRE(column.at(3, 3) == T(33));
+    REQUIRE(column.at(3, 4) == T(-1));
+    REQUIRE(column.at(3, 7) == T(-1));
+    REQUIRE(column.at(4, 0) == T(40));
+}
+
 template <class T>
 struct three_fields {
     T one;
@@ -113,6 +134,15 @@ TEST_CASE("records are turned into packs and back", "[records]") {
     check_records<float, 4>();
     check_records<float, 8>();
     check_records<float, 16>();
+}
+
+TEST_CASE("entries of two records are turned into packs", "[records]") {
+    check_bodies<double, 2>();
+    check_bodies<double, 4>();
+    check_bodies<double, 8>();
+    check_bodies<float, 4>();
+    check_bodies<float, 8>();
+    check_bodies<float, 16>();
 }
 
 TEST_CASE("fields of aggregates, packed and converted", "[fields]") {

@@ -49,6 +49,14 @@ def check_particles(path, expected):
             assert fields["orientation"][k] == [x, y, z, w]
 
 
+def check_pores(data, expected):
+    assert data.GetNumberOfCells() == len(expected) > 0
+    pressure, volume = (tuples(data.GetCellData().GetArray(name)) for name in ("pressure", "volume"))
+    for k, (who, p, v) in enumerate(expected):
+        assert corners(data.GetCell(k)) == who and pressure[k] == [p] and volume[k] == [v]
+    assert any(p[0] != 0 for p in pressure)
+
+
 folder = sys.argv[1]
 with open(os.path.join(folder, "expected.json"), encoding="ascii") as file:
     expected = json.load(file)
@@ -66,12 +74,7 @@ for storage in ("raw", "packed"):
         assert corners(bonds.GetCell(k)) == [first, second] and mode[k] == [state]
     assert any(m == [1] for m in mode) and any(m == [0] for m in mode)
 
-    pores = read(f"{prefix}-pores-{last}.vtp")
-    assert pores.GetNumberOfPolys() == len(sheet["pores"])
-    pressure, volume = (tuples(pores.GetCellData().GetArray(name)) for name in ("pressure", "volume"))
-    for k, (who, p, v) in enumerate(sheet["pores"]):
-        assert corners(pores.GetCell(k)) == who and pressure[k] == [p] and volume[k] == [v]
-    assert any(p[0] != 0 for p in pressure)
+    check_pores(read(f"{prefix}-pores-{last}.vtp"), sheet["pores"])
 
     for what in ("particles", "bonds", "pores"):
         frames = xml.parse(f"{prefix}-{what}.pvd").getroot().find("Collection").findall("DataSet")
@@ -81,7 +84,12 @@ for storage in ("raw", "packed"):
     sizes[storage] = sum(os.path.getsize(os.path.join(folder, f)) for f in os.listdir(folder) if f.startswith(storage))
 assert sizes["packed"] < sizes["raw"]
 
-check_particles(os.path.join(folder, f"space-particles-{expected['space']['step']:012d}.vtp"), expected["space"]["particles"])
+space = expected["space"]
+check_particles(os.path.join(folder, f"space-particles-{space['step']:012d}.vtp"), space["particles"])
+assert len(space["pores"]) == 2
+solid_pores = read(os.path.join(folder, f"space-pores-{space['step']:012d}.vtu"), vtkXMLUnstructuredGridReader)
+assert all(solid_pores.GetCellType(k) == 10 for k in range(2))
+check_pores(solid_pores, space["pores"])
 
 odd = sorted(f for f in os.listdir(folder) if f.startswith("points-"))
 assert len(odd) == 4

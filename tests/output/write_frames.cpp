@@ -22,7 +22,9 @@ namespace {
 struct wet : lacuna::default_model<2> {
     using flow = lacuna::explicit_flow;
 };
-struct space : lacuna::default_model<3> {};
+struct space : lacuna::default_model<3> {
+    using flow = lacuna::explicit_flow;
+};
 
 template <class Vector>
 std::vector<double> numbers(Vector const& v) {
@@ -45,6 +47,25 @@ nlohmann::json particles_of(Simulation const& sim) {
     return {{"step", sim.steps()}, {"time", sim.time()}, {"particles", all}};
 }
 
+template <class Simulation>
+nlohmann::json pores_of(Simulation const& sim) {
+    nlohmann::json all = nlohmann::json::array();
+    auto const& net = sim.flow().network();
+    for (std::size_t k = 0; k < net.pores(); ++k) {
+        nlohmann::json corners;
+        for (auto const& corner : net.corner) corners.push_back(sim.particles().id(std::size_t(corner[k])));
+        all.push_back({corners, net.pressure[k], net.volume[k]});
+    }
+    return all;
+}
+
+template <class Simulation>
+void fill(Simulation& sim) {
+    sim.fill_pores([](auto positions, double const* radii) {
+        return lacuna::make_pore_network(lacuna::triangulate_body(positions, radii), positions, radii);
+    });
+}
+
 /// A bonded sheet, 12 by 10, torn apart at its ends: some bonds break, pores open.
 nlohmann::json write_sheet(std::string const& folder) {
     auto const discs = lacuna::hexagonal_rows<double>(12, 10, 0.5, true);
@@ -52,9 +73,7 @@ nlohmann::json write_sheet(std::string const& folder) {
     p.materials[0].bond.tensile_strength = p.materials[0].bond.shear_strength = 1e4;
     p.flow.bulk_modulus = 1e6;
     lacuna::simulation<wet> sim(discs, p);
-    sim.fill_pores([](auto positions, double const* radii) {
-        return lacuna::make_pore_network(lacuna::triangulate_body(positions, radii), positions, radii);
-    });
+    fill(sim);
     for (std::size_t k = 0; k < sim.size(); ++k)
         if (k % 12 == 0 || k % 12 == 11) sim.move(k, {k % 12 == 0 ? -2.0 : 2.0, 0.1 * double(k % 5)});
     lacuna::vtk_series<> raw(folder + "/raw", 40);
@@ -65,32 +84,33 @@ nlohmann::json write_sheet(std::string const& folder) {
     auto said = particles_of(sim);
     for (auto const& bond : sim.pairs().bond_records())
         said["bonds"].push_back({bond.particles[0], bond.particles[1], int(bond.state)});
-    auto const& net = sim.flow().network();
-    for (std::size_t k = 0; k < net.pores(); ++k) {
-        nlohmann::json corners;
-        for (auto const& corner : net.corner) corners.push_back(sim.particles().id(std::size_t(corner[k])));
-        said["pores"].push_back({corners, net.pressure[k], net.volume[k]});
-    }
+    said["pores"] = pores_of(sim);
     said["names"] = {"000000000000", "000000000040", "000000000080", "000000000100"};
     said["times"] = {0.0, 40 * sim.time_step(), 80 * sim.time_step(), sim.time()};
     return said;
 }
 
-/// Three spheres, two of which meet askew.
+/// Five spheres around two pores, all in motion.
 nlohmann::json write_spheres(std::string const& folder) {
     lacuna::packing<double, 3> spheres;
     spheres.add({0.0, 0.0, 0.0}, 0.5);
-    spheres.add({0.9, 0.3, 0.3}, 0.5);
-    spheres.add({5.0, 0.0, 0.0}, 0.25);
+    spheres.add({1.0, 0.0, 0.0}, 0.5);
+    spheres.add({0.5, 0.875, 0.0}, 0.5);
+    spheres.add({0.5, 0.25, 0.75}, 0.4);
+    spheres.add({0.5, 0.25, -0.8125}, 0.45);
     lacuna::simulation_parameters<space> p;
     p.materials[0].contact.friction = 0.5;
+    p.flow.bulk_modulus = 1e6;
     lacuna::simulation<space> sim(spheres, p);
-    sim.set_velocity(0, {1.0, 0.2, 0.0});
-    sim.set_spin(2, {10.0, 20.0, 30.0});
+    fill(sim);
+    sim.set_velocity(3, {0.1, 0.2, -1.0});
+    sim.set_spin(1, {10.0, 20.0, 30.0});
     lacuna::vtk_series<lacuna::vtk_zlib> packed(folder + "/space", 1000);
     lacuna::lammps_dump dump(folder + "/space", 1000);
-    sim.run(50, packed, dump);
-    return particles_of(sim);
+    sim.run(20, packed, dump);
+    auto said = particles_of(sim);
+    said["pores"] = pores_of(sim);
+    return said;
 }
 
 /// Arrays of one block and of several, whole and not, and none at all; a tetrahedron.

@@ -305,7 +305,8 @@ TEST_CASE("the step limit of flow in space is below 2 / lambda_max, by dense eig
 TEST_CASE("a facet's section conducts as a tube of its hydraulic radius") {
     // Three touching spheres, the facet of 9a, between two tetrahedra.
     double const h = std::sqrt(8.0 / 3);
-    space_body b{{{0, 0, 0}, {2, 0, 0}, {1, std::sqrt(3.0), 0}, {1, std::sqrt(1.0 / 3), h}, {1, std::sqrt(1.0 / 3), -h}},
+    double const middle = std::sqrt(1.0 / 3);
+    space_body b{{{0, 0, 0}, {2, 0, 0}, {1, 3 * middle, 0}, {1, middle, h}, {1, middle, -h}},
                  std::vector<double>(5, 1.0)};
     auto p = space_body::settings<section_solver>();
     double const viscosity = 0.25;
@@ -324,7 +325,8 @@ TEST_CASE("a facet's section conducts as a tube of its hydraulic radius") {
     REQUIRE(shut.network().conductance[0] == 0);
     REQUIRE(shut.critical_time_step() == std::numeric_limits<double>::infinity());
     REQUIRE_THROWS_WITH((p.aperture.shape_factor = 0, b.flow<section_solver>(p)), contains_text("shape_factor = 0"));
-    REQUIRE_THROWS_WITH((section_solver{space_body::settings<section_solver>(), b.network(), 2.0, b.points(), b.r.data()}),
+    auto const settings = space_body::settings<section_solver>();
+    REQUIRE_THROWS_WITH((section_solver{settings, b.network(), 2.0, b.points(), b.r.data()}),
                         contains_text("thickness = 2"));
 }
 
@@ -398,7 +400,8 @@ TEST_CASE("a flat tetrahedron is a pore at its least volume, of no force") {
     space_body b{{{1, 0, 0}, {0, 1, 0}, {-1, 0, 1e-5}, {0, -1, 0}}, std::vector<double>(4, 0.5)};
     pore_mesh<3> mesh;
     mesh.simplices = {{0, 1, 2, 3}};
-    if (simplex_size<double, 3>(mesh.simplices[0], b.points()) < 0) std::swap(mesh.simplices[0][2], mesh.simplices[0][3]);
+    auto& corners = mesh.simplices[0];
+    if (simplex_size<double, 3>(corners, b.points()) < 0) std::swap(corners[2], corners[3]);
     detail::connect(mesh);
     auto const net = make_pore_network(mesh, b.points(), b.r.data());
     REQUIRE_THAT(net.size[0], WithinRel(1 / std::sqrt(72.0), 1e-12)); // edge 1

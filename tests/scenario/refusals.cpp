@@ -201,6 +201,10 @@ TEST_CASE("each bad value is refused by its path", "[refusal]") {
         REQUIRE_THAT(refusal(with(c.old, c.fresh)), contains_text(c.message));
     }
     REQUIRE_THAT(refusal("simulation = [\n"), contains_text("case.toml:"));
+    // Letters that are not ASCII, where a blank could stand.
+    for (char const* letter : {"\u00e9", "\u0498", "\u3042"})
+        for (char const* before : {"", "steps = 1", "steps ", "[simulation]", "a = [1, "})
+            REQUIRE_THAT(refusal(std::string(before) + letter + " = 1\n"), contains_text("case.toml:1:"));
     REQUIRE_THAT(refusal(""), contains_text("simulation = (missing): must be given"));
     REQUIRE_THAT(refusal(with("dimension = 2", "dimension = 3")), contains_text("simulation.thickness"));
 }

@@ -142,6 +142,33 @@ TEST_CASE("Mindlin's stiffness, Coulomb's limit, and no energy from nothing", "[
     REQUIRE_THAT(k.shear, WithinRel(8 * shear_modulus * a, 1e-9));
 }
 
+TEST_CASE("a bond that fails in shear under compression leaves a Hertzian contact with its forces", "[hertz]") {
+    using law = lacuna::hertz_mindlin;
+    auto const p = law::combine({1e6, 0.3, 10, 1}, {1e6, 0.3, 10, 1}, 1);
+    // Pressed by as much as the overlap says, and by more and less; a pair that stands apart, too.
+    for (double const distance : {0.199, 0.2, 0.201})
+        for (double const force : {-1e-3, -0.5, -7.0}) {
+            lacuna::pair_motion<double, 2> const still{distance, 0.1, 0.1, {0}, 0};
+            auto const kept = law::evaluate(p, still, law::hand_over(p, still, force, {0.2 * force}));
+            REQUIRE_THAT(kept.normal_force, WithinRel(force, 1e-9));
+            REQUIRE_THAT(kept.shear_force[0], WithinRel(0.2 * force, 1e-9));
+        }
+    // Without compression there is nothing to rub against.
+    lacuna::pair_motion<double, 2> const apart{0.201, 0.1, 0.1, {0}, 0};
+    auto const loose = law::evaluate(p, apart, law::hand_over(p, apart, 3.0, {0.2}));
+    REQUIRE(loose.normal_force == 0);
+    REQUIRE(loose.shear_force[0] == 0);
+}
+
+TEST_CASE("Hertzian materials are refused by field, value and rule", "[hertz][refusal]") {
+    for (double const nu : {-1.0, 0.51, never, std::numeric_limits<double>::quiet_NaN()})
+        REQUIRE_THROWS_WITH((lacuna::hertz_mindlin::material{1e6, nu, 0.1, 1}.validate("m")),
+                            contains_text("m.poisson_ratio = " + lacuna::to_text(nu) + ": must be > -1 and <= 0.5"));
+    for (double const young : {0.0, -1.0, never})
+        REQUIRE_THROWS_WITH((lacuna::hertz_mindlin::material{young, 0.3, 0.1, 1}.validate("m")),
+                            contains_text("m.young_modulus = " + lacuna::to_text(young) + ": must be"));
+}
+
 TEST_CASE("a sphere hits a wall as Hertz says", "[hertz]") {
     using model = spheres<2>;
     auto p = glass<model>();

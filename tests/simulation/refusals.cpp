@@ -172,6 +172,14 @@ TEST_CASE("a run that went wrong says where", "[unstable]") {
         expect(run, 0, 2, "not a number");
     }
     {
+        // A spin alone: nothing touches the particle, so that no force and no velocity knows of it.
+        lacuna::packing<double, 2> one;
+        one.add({0, 0}, 0.5);
+        lacuna::simulation<plane> run(one, p);
+        run.set_spin(0, {nan_value});
+        CHECK_THROWS_WITH(run.step(), contains_text("step 0") && contains_text("a velocity or spin is not a number"));
+    }
+    {
         lacuna::packing<double, 2> same;
         same.add({7, 7}, 0.5);
         same.add({1, 1}, 0.5);

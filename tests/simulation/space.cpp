@@ -151,3 +151,28 @@ TEST_CASE("a work of loads and prescribed turning in space is in the ledger", "[
     REQUIRE_THAT(run.energy().external, WithinRel(expected, 3e-3));
     REQUIRE(std::fabs(run.energy().residual()) < 1e-3 * expected);
 }
+
+TEST_CASE("a wall's shear force turns with the sphere that twists on it", "[3d][friction]") {
+    // Slid by u along x, then spun about the wall's normal: k_s u, turned by half the sphere's angle, as by the mean of
+    // the two spins. Two full turns and a bit.
+    auto p = unit_springs(never, never, 1.0);
+    p.time_step = 1e-2;
+    p.walls = {{{0, 0, 0}, {0, 0, 1}, p.materials[0].contact}};
+    lacuna::packing<double, 3> one;
+    one.add({0, 0, 0.49}, 0.5);
+    lacuna::simulation<space> run(one, p);
+    run.fix(0);
+    double const slid = 1e-3, spin = 0.7;
+    run.set_velocity(0, {slid, 0, 0});
+    for (int n = 0; n < 100; ++n) run.step();
+    run.set_velocity(0, {0, 0, 0});
+    run.set_spin(0, {0, 0, spin});
+    int const steps = 2000;
+    for (int n = 0; n <= steps; ++n) run.step();
+    auto const force = run.walls().force(0); // on the wall: along the slip
+    double const angle = 0.5 * spin * steps * p.time_step;
+    REQUIRE_THAT(std::hypot(force[0], force[1]), WithinRel(slid, 1e-10));
+    REQUIRE_THAT(force[0], WithinAbs(slid * std::cos(angle), 1e-4 * slid));
+    REQUIRE_THAT(force[1], WithinAbs(slid * std::sin(angle), 1e-4 * slid));
+    REQUIRE(run.spin(0)[2] == spin);
+}

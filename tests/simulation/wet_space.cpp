@@ -107,9 +107,12 @@ TEMPLATE_TEST_CASE("a wet cluster of spheres that is torn: ledger, momenta, mass
     auto const linear = setups::momentum(sim), angular = setups::angular_momentum(sim);
     int const steps = 200;
     double missing = 0, gross = 0;
-    std::string const file = "wet_space.checkpoint";
+    struct scratch_file {
+        std::string path = "wet_space_checkpoint.bin";
+        ~scratch_file() { std::remove(path.c_str()); }
+    } const file;
     for (int s = 0; s < steps; ++s) {
-        if (s == steps / 2) save_checkpoint(file, sim);
+        if (s == steps / 2) save_checkpoint(file.path, sim);
         sim.step_with_energy();
         missing += std::fabs(sim.flow().ledger().mass_residual);
         gross += sim.flow().ledger().gross_volume;
@@ -130,8 +133,7 @@ TEMPLATE_TEST_CASE("a wet cluster of spheres that is torn: ledger, momenta, mass
     REQUIRE_THAT(norm(setups::angular_momentum(sim) - angular), WithinAbs(0, 1e-11 * 5 * scale));
 
     auto resumed = torn<TestType>();
-    load_checkpoint(file, resumed);
-    std::remove(file.c_str());
+    load_checkpoint(file.path, resumed);
     auto threaded = torn<TestType>(3);
     for (int s = 0; s < steps; ++s) threaded.step_with_energy();
     for (int s = steps / 2; s < steps; ++s) resumed.step_with_energy();
@@ -223,7 +225,8 @@ TEST_CASE("Terzaghi's column in space") {
         for (int y = 0; y < 2; ++y)
             for (int x = 0; x < 2; ++x) spheres.add({double(x), double(y), double(z)}, 0.5);
     setups::bond_touching(spheres);
-    double const kn = 1, bulk_modulus = 8, modulus = 4 * kn, storage = 1 / modulus + (1 - setups::pi / 6) / bulk_modulus;
+    double const kn = 1, bulk_modulus = 8, modulus = 4 * kn;
+    double const storage = 1 / modulus + (1 - setups::pi / 6) / bulk_modulus;
     // Sound takes 1/400 of the time that the column takes to consolidate.
     double const time_scale = 400 * layers * std::sqrt(1.0 / (4 * kn / 4));
     double const conductance = 1.5 * storage * layers * layers / time_scale;

@@ -157,7 +157,7 @@ std::array<pack<T, W>, 4> turn_records(At const& at) noexcept {
 }
 
 /// Turns W entries of two records: result[l][k] is number l of entry k.
-/// \param at callable at.template operator()<N>(k, first): N numbers of entry k, from number `first` on
+/// \param at callable `at.template operator()<N>(k, first)`: N numbers of entry k, from number `first` on
 template <class T, int W, class At>
 std::array<pack<T, W>, 8> turn_bodies(At const& at) noexcept {
     using P = pack<T, W>;

@@ -55,7 +55,7 @@ std::vector<Entry> make_bonds(particle_store<Real, Dim> const& store,
         auto i = store.internal(std::size_t(pairs[b][0])), j = store.internal(std::size_t(pairs[b][1]));
         if (i > j) std::swap(i, j);
         Real const touching = store.radius(std::size_t(i)) + store.radius(std::size_t(j));
-        Real const distance = norm(store.position(std::size_t(j)) - store.position(std::size_t(i)));
+        Real const distance = norm(store.nearest(store.position(std::size_t(j)) - store.position(std::size_t(i))));
         if (!(distance > 0)) refuse(name + ".distance", double(distance), "> 0");
         gap = std::max(gap, distance - touching);
         bonds.push_back({i, j, row(i, j), std::int32_t(b), Law::template initial<Real, Dim>(distance, touching)});

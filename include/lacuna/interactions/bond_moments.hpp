@@ -34,7 +34,7 @@ void visit_moment_stiffness(particle_store<Real, Dim> const& store, Table const&
     for (std::size_t s = 0; s < pairs.slots(); ++s) {
         if (pairs.is_filler(s, store.size())) continue;
         auto const i = std::size_t(pairs.i(s)), j = std::size_t(pairs.j(s));
-        auto const arm = convert<double>(store.position(j) - store.position(i));
+        auto const arm = convert<double>(store.nearest(store.position(j) - store.position(i)));
         auto const k = Law::template against_turning<Dim>(parameters.row[std::size_t(pairs.parameter()[s])],
                                                           store.radius(i), store.radius(j), Real(norm(arm)));
         visit(i, j, arm / norm(arm), moment_stiffness<double>{double(k.bending), double(k.twisting)});

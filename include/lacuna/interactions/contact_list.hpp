@@ -38,7 +38,7 @@ auto first_history(particle_store<Real, Dim> const& store, neighbor_pair const& 
     Real const touching = store.radius(i) + store.radius(j);
     Real start = touching;
     if (tolerance > 0) {
-        Real const distance = norm(store.position(j) - store.position(i));
+        Real const distance = norm(store.nearest(store.position(j) - store.position(i)));
         if (abs(distance - touching) <= Real(tolerance) * std::min(store.radius(i), store.radius(j))) start = distance;
     }
     return Law::template initial<Real, Dim>(start, touching);
@@ -52,7 +52,7 @@ template <class Real, int Dim, class Table>
     for (std::size_t s = pack * Table::width; s < (pack + 1) * Table::width; ++s) {
         if (contacts.is_filler(s, store.size())) continue;
         auto const i = std::size_t(contacts.i(s)), j = std::size_t(contacts.j(s));
-        Real const distance = norm(store.position(j) - store.position(i));
+        Real const distance = norm(store.nearest(store.position(j) - store.position(i)));
         if (distance < std::max(store.radius(i), store.radius(j))) found = contacts.i(s);
     }
     return found;

@@ -16,7 +16,9 @@
 #include <lacuna/interactions/pair_loop.hpp>
 #include <lacuna/laws/damping.hpp>
 #include <lacuna/laws/no_contact.hpp>
+#include <lacuna/neighbors/periodic_search.hpp>
 #include <lacuna/neighbors/verlet_list.hpp>
+#include <lacuna/particles/domain.hpp>
 #include <lacuna/particles/material.hpp>
 
 namespace lacuna {
@@ -25,13 +27,14 @@ struct interactions_archive;
 
 /// Bonds and contacts: their tables, histories, forces, and the hand-over from bond to contact.
 template <class Real, int Dim, contact_law<Dim> ContactLaw, bond_law<Dim> BondLaw, damping_policy Damping,
-          neighbor_search Search>
+          neighbor_search Search, domain_policy Domain = open_domain>
 class interactions {
 public:
     using store_type = particle_store<Real, Dim>;
     using contact_table = pair_table<ContactLaw, Real, Dim>;
     using bond_table = pair_table<BondLaw, Real, Dim>;
     using material = material_of<ContactLaw, BondLaw>;
+    using search_type = std::conditional_t<Domain::periodic, periodic_search<Search>, Search>;
     static constexpr int chunk_particles = contact_table::chunk_particles;
 
     interactions() = default;
@@ -62,7 +65,11 @@ public:
             largest = std::max(largest, double(r));
         }
         gap = std::max(gap, Real(parameters.initial_contact_tolerance * largest));
-        neighbors_ = verlet_list<Search>({Real(parameters.skin * mean), gap});
+        neighbors_ = verlet_list<search_type>({Real(parameters.skin * mean), gap});
+        if constexpr (Domain::periodic) {
+            require_long_periods(store, 2 * Real(largest) + gap + neighbors_.settings().skin);
+            neighbors_.set_period(store.period().length);
+        }
         if (has_contacts()) neighbors_.build(store.positions(), store.radii());
         rebuild_tables(store, true);
     }
@@ -95,7 +102,7 @@ public:
 
     int chunks() const noexcept { return forces_.chunks(); }
 
-    /// \copydoc force_store::set_mode
+    /// As force_store::set_mode().
     void set_mode(store_type const& store, bool streaming, int threads) {
         if (!forces_.set_mode(streaming, threads)) return;
         neighbors_.set_threads(threads);
@@ -109,19 +116,19 @@ public:
         auto& energy = energy_[std::size_t(chunk)];
         energy = {};
         if constexpr (!is_absent<BondLaw>)
-            evaluate_chunk<pair_kind::bond, WithEnergy, BondLaw, Damping>(
+            evaluate_chunk<pair_kind::bond, WithEnergy, BondLaw, Damping, Domain>(
                 bonds_, chunk, bond_parameters_, damping_, store, time_step, forces_.template begin<0>(bonds_, chunk),
                 forces_.template places<0>(bonds_, chunk), moments_.data(), energy[0],
                 [&](std::size_t pack) { break_bonds(store, chunk, pack, time_step); });
         if constexpr (!is_absent<ContactLaw>)
-            evaluate_chunk<pair_kind::contact, WithEnergy, ContactLaw, Damping>(
+            evaluate_chunk<pair_kind::contact, WithEnergy, ContactLaw, Damping, Domain>(
                 contacts_, chunk, contact_parameters_, damping_, store, time_step, forces_.template begin<1>(contacts_, chunk),
                 forces_.template places<1>(contacts_, chunk), contact_moments_.data(), energy[1],
                 [&](std::size_t pack) {
                     if (auto const k = find_deep_overlap(store, contacts_, pack); k >= 0) deep_overlap_[std::size_t(chunk)] = k;
                 });
     }
-    /// \copydoc force_store::with_sums
+    /// As force_store::with_sums().
     template <class Use>
     void with_forces_on(int chunk, Use const& use) const {
         forces_.with_sums(chunk, use);
@@ -205,7 +212,7 @@ public:
     parameter_table<ContactLaw, Real> const& contact_parameters() const noexcept { return contact_parameters_; }
     parameter_table<BondLaw, Real> const& bond_parameters() const noexcept { return bond_parameters_; }
     typename Damping::parameters const& damping() const noexcept { return damping_; }
-    verlet_list<Search> const& neighbors() const noexcept { return neighbors_; }
+    verlet_list<search_type> const& neighbors() const noexcept { return neighbors_; }
 
 private:
     friend struct interactions_archive; // writes and reads the state, in a header of its own
@@ -213,6 +220,13 @@ private:
     using bond_entry = typename bond_table::entry;
     using pending_event = bond_failure<contact_entry, Dim>;
 
+    /// \param reach largest distance at which two particles meet, m
+    static void require_long_periods(store_type const& store, Real reach) {
+        for (int axis = 0; axis < Dim; ++axis)
+            if (Real const length = store.period().length[axis]; length > 0 && !(length >= Real(2.01) * reach))
+                refuse("domain.period", double(length),
+                       "0 or at least 2.01 times the distance at which particles meet, " + to_text(2.01 * double(reach)));
+    }
     bool has_contacts() const noexcept { return !is_absent<ContactLaw> && parameters_.contacts; }
     std::int32_t parameter_row(store_type const& store, std::int32_t i, std::int32_t j) const noexcept {
         return store.material(std::size_t(i)) * materials_ + store.material(std::size_t(j));
@@ -234,7 +248,7 @@ private:
                 return contact_entry{pair.i, pair.j, parameter_row(store, pair.i, pair.j), -1,
                                      first_history<ContactLaw>(store, pair, first ? parameters_.initial_contact_tolerance : 0)};
             });
-            contacts_.assign(new_contacts_, store.size(), store.ghost(0), store.ghost(1));
+            contacts_.assign(new_contacts_, store.size(), store.ghost(0), store.ghost(1), store.ghost_distance());
         }
         if (bonds_change) {
             assign_bonds(store);
@@ -244,7 +258,7 @@ private:
     }
 
     void assign_bonds(store_type const& store) {
-        bonds_.assign(bond_entries_, store.size(), store.ghost(0), store.ghost(1));
+        bonds_.assign(bond_entries_, store.size(), store.ghost(0), store.ghost(1), store.ghost_distance());
         if constexpr (carries_moment<BondLaw>) moments_.resize(bonds_.slots() * rotation_dim<Dim>);
         number_bonds(bond_records_, bonds_, store.size());
     }
@@ -291,7 +305,7 @@ private:
     int materials_ = 0;
     parameter_table<ContactLaw, Real> contact_parameters_;
     parameter_table<BondLaw, Real> bond_parameters_;
-    verlet_list<Search> neighbors_;
+    verlet_list<search_type> neighbors_;
     Real path_ = 0;
     bond_table bonds_;
     contact_table contacts_;

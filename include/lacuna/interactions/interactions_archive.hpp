@@ -60,7 +60,7 @@ private:
                            using entry = typename Interactions::contact_entry;
                            return entry{pair.i, pair.j, pairs.parameter_row(store, pair.i, pair.j), -1, {}};
                        });
-        pairs.contacts_.assign(pairs.new_contacts_, store.size(), store.ghost(0), store.ghost(1));
+        pairs.contacts_.assign(pairs.new_contacts_, store.size(), store.ghost(0), store.ghost(1), store.ghost_distance());
         pairs.assign_bonds(store);
         pairs.build_rows(store);
         pairs.forces_.forget();

@@ -58,6 +58,7 @@ void visit_stiffness(particle_store<Real, Dim> const& store, Table const& table,
         vec<double, Dim> arm{};
         for (int axis = 0; axis < Dim; ++axis)
             arm[axis] = double(store.position(j)[axis]) - double(store.position(i)[axis]);
+        arm = store.nearest(arm);
         double const distance = norm(arm), ri = double(store.radius(i)), rj = double(store.radius(j));
         auto const k = law_stiffness<Law, Dim>(parameters.row[std::size_t(table.parameter()[s])], distance, ri, rj, bonded);
         pair_motion<Real, Dim> const still{Real(distance), Real(ri), Real(rj), {}, Real(0)};

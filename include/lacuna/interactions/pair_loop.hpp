@@ -166,7 +166,7 @@ enum class pair_kind { contact, bond };
 /// \param moments where the moments on the first of each pair go, rotation_dim numbers a slot; laws with moments only
 /// \param on_event called as on_event(pack) after a pack in which a bond has failed, or two particles overlap by
 ///        more than a radius; rare
-template <pair_kind Kind, bool WithEnergy, class Law, class Damping, class Real, int Dim, class OnEvent>
+template <pair_kind Kind, bool WithEnergy, class Law, class Damping, class Domain, class Real, int Dim, class OnEvent>
 [[gnu::noinline, gnu::flatten]] void evaluate_chunk(pair_table<Law, Real, Dim>& table, int chunk,
                                       parameter_table<Law, Real> const& parameters,
                                       typename Damping::parameters const& damping,
@@ -185,6 +185,7 @@ template <pair_kind Kind, bool WithEnergy, class Law, class Damping, class Real,
     for (std::size_t p = table.first_pack(chunk), end = table.end_pack(chunk); p < end; ++p) {
         std::size_t const slot = p * W;
         auto pair = load_relative<lanes>(store, table.i_records() + slot, table.j_records() + slot);
+        if constexpr (Domain::periodic) pair.arm = store.period().shortest(pair.arm);
         auto frame = relative_motion(pair, dt);
         auto state = states.load(p);
         if constexpr (Dim == 3) state.shear_force = frame.turned(state.shear_force);

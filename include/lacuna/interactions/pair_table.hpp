@@ -34,9 +34,10 @@ public:
 
     /// Replaces all pairs. No allocation once the table was as large before.
     /// \param entries sorted by (i, j)
-    void assign(std::span<entry const> entries, std::size_t particles, std::int32_t ghost0, std::int32_t ghost1) {
+    /// \param apart distance of the ghosts, m
+    void assign(std::span<entry const> entries, std::size_t particles, std::int32_t ghost0, std::int32_t ghost1, Real apart) {
         std::size_t const chunks = (particles + chunk_particles - 1) / chunk_particles;
-        entry const filler{ghost0, ghost1, 0, -1, Law::template initial<Real, Dim>(Real(1), Real(0.5))};
+        entry const filler{ghost0, ghost1, 0, -1, Law::template initial<Real, Dim>(apart, apart / 2)};
         chunk_begin_.assign(1, 0);
         i_.clear();
         j_.clear();

@@ -103,6 +103,7 @@ public:
             frame.motion.distance = distance;
             frame.motion.normal_rate = dot(normal, velocity);
             frame.motion.slip = slip(velocity, i.spin, normal, distance, time_step);
+            turn(n.state, frame, i.spin, time_step);
             auto const& law = row_of(store, n);
             auto const answer = answer_to(law, frame, n.state, i.spin, time_step);
             Real normal_force = answer.normal_force;
@@ -215,6 +216,17 @@ private:
 
     auto const& row_of(particle_store<Real, Dim> const& store, near_wall const& n) const noexcept {
         return parameters_.row[n.plane * materials_ + std::size_t(store.material(n.particle))];
+    }
+    /// What a contact in space remembers turns about the normal by the mean of the spins of particle and wall, which has
+    /// none (MODEL.md section 2); the normal stays.
+    static void turn([[maybe_unused]] history_of<Real>& state, [[maybe_unused]] pair_frame<Real, Dim>& frame,
+                     [[maybe_unused]] vec<Real, rotation_dim<Dim>> const& spin, [[maybe_unused]] Real time_step) {
+        if constexpr (Dim == 3) {
+            frame.previous_normal = frame.normal;
+            frame.twist = Real(0.5) * dot(spin, frame.normal) * time_step;
+            if constexpr (requires { state.shear_force; }) state.shear_force = frame.turned(state.shear_force);
+            if constexpr (carries_moment<ContactLaw>) state.bending_moment = frame.turned(state.bending_moment);
+        }
     }
     template <class Parameters>
     static auto answer_to(Parameters const& law, pair_frame<Real, Dim> const& frame, history_of<Real> const& state,

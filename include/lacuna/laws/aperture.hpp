@@ -123,10 +123,10 @@ struct exponential_aperture {
 ///
 ///   C = k s A R_h^2 / l,   k = 1 / (2 mu)
 ///
-/// A is what the spheres leave of the facet, R_h that area over the length of the arcs that bound it: 0 where they close
-/// it. A round tube has s = 1 (Hagen, Poiseuille). After B. Chareyre, A. Cortis, E. Catalano and E. Barthelemy (2012,
-/// "Pore-scale modeling of viscous flow and induced forces in dense sphere packings", Transp. Porous Media 94, 595), who
-/// take R_h from the walls of the two pores instead, and the distance between these for l.
+/// A is what the spheres leave of the facet, R_h that area over the length of the arcs that bound it: 0 where they
+/// close it. A round tube has s = 1 (Hagen, Poiseuille). After B. Chareyre, A. Cortis, E. Catalano and E. Barthelemy
+/// (2012, "Pore-scale modeling of viscous flow and induced forces in dense sphere packings", Transp. Porous Media 94,
+/// 595), who take R_h from the walls of the two pores instead, and the distance between these for l.
 struct hydraulic_section {
     struct parameters {
         double shape_factor = 1; ///< s; > 0

@@ -24,7 +24,7 @@ public:
     using real_type = Real;
     static constexpr int dim = Dim;
 
-    /// \copydoc neighbor_search
+    /// See neighbor_search.
     void build(points_view<Real, Dim> const& points, Real cutoff) {
         detail::require_finite_points(points);
         detail::require_length("cutoff", cutoff);

@@ -99,7 +99,7 @@ public:
     }
     ~kd_tree() = default;
 
-    /// \copydoc neighbor_search
+    /// See neighbor_search.
     void build(points_view<Real, Dim> const& points, Real cutoff) {
         detail::require_finite_points(points);
         detail::require_length("cutoff", cutoff);

@@ -41,6 +41,13 @@ public:
         if constexpr (requires { search_.set_threads(threads); }) search_.set_threads(threads);
     }
 
+    /// Of a periodic_search. \param period m; 0 along open axes
+    void set_period(vec<real_type, dim> const& period)
+        requires(requires(Search s) { s.set_period(period); })
+    {
+        search_.set_period(period);
+    }
+
     /// Builds the list anew when it may miss a pair: when it was never built, the number of particles or a
     /// radius changed, or a particle moved more than skin / 2 since the last build.
     /// \return whether it was built anew

@@ -43,7 +43,7 @@ std::string lammps_dump_text(Simulation const& sim) {
     return text;
 }
 
-/// Writes frames for OVITO: <prefix>-<step>.dump, whole or not at all; OVITO takes `<prefix>-*.dump` as a series.
+/// Writes frames for OVITO: PREFIX-STEP.dump, whole or not at all; OVITO takes `PREFIX-*.dump` as a series.
 struct lammps_frames {
     template <class Simulation>
     void write(Simulation const& sim, std::string const& prefix, std::string const& number) const {

@@ -10,8 +10,8 @@
 
 namespace lacuna {
 
-/// Writes frames for ParaView: <prefix>-particles-<step>.vtp, -bonds- where there are bonds, -pores- where there is fluid
-/// (.vtu in space), and a series in time of each, <prefix>-particles.pvd and so on. Each file appears whole or not at all.
+/// Writes frames for ParaView: PREFIX-particles-STEP.vtp, -bonds- where there are bonds, -pores- where there is fluid
+/// (.vtu in space), and a series in time of each, PREFIX-particles.pvd and so on. Each file appears whole or not at all.
 /// \tparam Storage vtk_raw or vtk_zlib
 template <class Storage = vtk_raw>
 class vtk_frames {

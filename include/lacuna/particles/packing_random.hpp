@@ -7,7 +7,7 @@
 namespace lacuna {
 
 /// The random numbers of the packing generators: the same seed gives the same numbers with every compiler and
-/// standard library, which the distributions of <random> do not promise.
+/// standard library, which the distributions of `<random>` do not promise.
 class random_source {
 public:
     explicit random_source(std::uint64_t seed) : engine_(seed) {}

@@ -12,6 +12,7 @@
 #include <lacuna/core/error.hpp>
 #include <lacuna/core/points.hpp>
 #include <lacuna/core/records.hpp>
+#include <lacuna/particles/domain.hpp>
 #include <lacuna/particles/packing.hpp>
 
 namespace lacuna {
@@ -110,6 +111,24 @@ public:
         }
     }
 
+    /// Makes the space periodic. \param period m; 0 along open axes
+    void set_period(vec<double, Dim> const& period) noexcept {
+        periods_ = periods<Real, Dim>::of(period);
+        for (int axis = 0; axis < Dim; ++axis)
+            if (period[axis] > 0) ghost_distance_ = std::min(ghost_distance_, Real(period[axis] / 4));
+        for (std::size_t g = 0; g < ghosts; ++g) {
+            body_.at(size() + g, 0) = Real(g) * ghost_distance_;
+            body_.at(size() + g, 3) = body_.at(size() + g, motion + 3) = ghost_distance_ / 4;
+        }
+    }
+    /// Of the space; all zero where it is open.
+    periods<Real, Dim> const& period() const noexcept { return periods_; }
+    /// The way from one particle to another, given as the difference of their places, or to its image that is nearest.
+    template <class T>
+    vec<T, Dim> nearest(vec<T, Dim> const& way) const noexcept {
+        return periods_.any() ? periods_.shortest(way) : way;
+    }
+
     std::size_t size() const noexcept { return id_.size(); }
     std::int32_t id(std::size_t internal) const noexcept { return id_[internal]; }
     std::int32_t internal(std::size_t id) const noexcept { return internal_[id]; }
@@ -204,6 +223,8 @@ public:
     Real const* masses() const noexcept { return mass_.data(); }
     /// Internal index of the two partners that fill incomplete packs of pairs.
     std::int32_t ghost(int which) const noexcept { return std::int32_t(size()) + which; }
+    /// How far they are from each other, m.
+    Real ghost_distance() const noexcept { return ghost_distance_; }
     template <class Archive>
     void serialize(Archive& ar) {
         ar(body_, surface_speed_, quaternion_, load_, fixed_length{free_}, fixed_length{loaded_});
@@ -242,6 +263,8 @@ private:
         for (int axis = 0; axis < Dim; ++axis) column.at(k, first + axis) = value[axis];
     }
 
+    periods<Real, Dim> periods_;
+    Real ghost_distance_ = 1;
     std::vector<std::int32_t> id_, internal_;
     std::vector<int> material_;
     std::vector<Real> radius_, mass_, inertia_, inverse_mass_;

@@ -12,8 +12,8 @@ namespace lacuna {
 /// What lies behind a throat on the boundary of the body: nothing that fluid passes, or a reservoir.
 enum class boundary_kind : std::uint8_t { sealed, drained };
 
-/// Side of the body's bounding box that a boundary throat is nearest to: left and right along the first axis, bottom and top
-/// along the second, back and front along the third.
+/// Side of the body's bounding box that a boundary throat is nearest to: left and right along the first axis, bottom
+/// and top along the second, back and front along the third.
 enum class body_side : std::uint8_t { left, right, bottom, top, back, front };
 
 /// What a selection of boundaries answers for one throat. A reservoir takes and gives fluid; it does not press on

@@ -111,8 +111,8 @@ public:
     }
 
     /// Writes the forces of the pore pressures, as the last step() left them, for every particle: the record
-    /// {F_x, F_y, 0, 0}, in space {F_x, F_y, F_z, 0} and a record of zeros, N. A pore at its least volume exerts none: it
-    /// does not change its volume either.
+    /// {F_x, F_y, 0, 0}, in space {F_x, F_y, F_z, 0} and a record of zeros, N. A pore at its least volume exerts none:
+    /// it does not change its volume either.
     void write_tractions(record_column<Real>& extra, int threads = 1) const noexcept {
         for_each_chunk(corners_.chunks(), threads, [&](int c) { corners_.write(c, pores_.forces(), extra); });
     }

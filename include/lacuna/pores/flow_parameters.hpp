@@ -17,8 +17,8 @@ struct flow_parameters {
     double bulk_modulus = 2.2e9; ///< K_f of the fluid, Pa; > 0
     /// k of eq. 14: C = k a^3 / l in m^3/(s Pa), so m/(s Pa); of a section (hydraulic_section) 1/(s Pa); >= 0
     double conductivity = 1e-9;
-    /// Least pore volume, as a share of the pore's triangle when the network was built (in space of pore_network::size);
-    /// > 0, <= 1.
+    /// Least pore volume, as a share of the pore's triangle when the network was built (in space of
+    /// pore_network::size); > 0, <= 1.
     double minimum_volume_fraction = 1e-3;
     double minimum_pressure = -std::numeric_limits<double>::infinity(); ///< the fluid tears below, Pa; <= 0
     double initial_pressure = 0; ///< on top of the network's own, Pa; nowhere below minimum_pressure

@@ -1,89 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <limits>
-#include <numbers>
+#include <array>
 
 #include <lacuna/core/vec.hpp>
+#include <lacuna/pores/angles.hpp>
 
 /// \file
-/// Formulas of pores in the plane, over a scalar type T (plain number, pack, dual number). A pore is the triangle of
-/// three particle centres, counter-clockwise, less the sectors of the discs in it; t is the thickness in m.
+/// Formulas of pores, over a scalar type T (plain number, pack, dual number). In the plane a pore is the triangle of
+/// three particle centres, counter-clockwise, less the sectors of the discs in it; t is the thickness in m. In space it
+/// is the tetrahedron of four centres less the sectors of the spheres in it; a throat is a facet less the sectors of the
+/// discs that its plane cuts out of the three spheres.
 
 namespace lacuna {
-
-namespace detail {
-
-/// Angle of a vector (x, y) with y >= 0, as base plus or minus the inverse tangent of above / below, a ratio of at most
-/// tan(pi/8). Kept apart so that several divisions can be made in one.
-template <class T>
-struct reduced_angle {
-    T above, below;
-    mask_t<T> steep, middle, obtuse;
-
-    reduced_angle(T const& y, T const& x) noexcept {
-        using V = value_t<T>;
-        T ax = abs(x);
-        steep = ax < y;
-        obtuse = x < T(V(0));
-        T low = min(ax, y), high = max(ax, y);
-        middle = low > T(V(0.41421356237309503)) * high;
-        above = select(middle, low - high, low);
-        below = select(middle, low + high, high);
-    }
-    /// \param z above / below
-    ///
-    /// A law's scalar type has no inverse tangent. The polynomial interpolates it at Chebyshev's points of z^2 for
-    /// |z| <= tan(pi/8); its error, below 6e-17, is less than that of the arithmetic.
-    T angle(T const& z) const noexcept {
-        using V = value_t<T>;
-        T s = z * z, s2 = s * s;
-        // By pairs of terms: a chain half as long as one by one.
-        T p = T(V(2.2748939747779046e-2)) * s + T(V(-4.483218628995374e-2));
-        p = p * s2 + (T(V(5.7362969593526145e-2)) * s + T(V(-6.649607953399717e-2)));
-        p = p * s2 + (T(V(7.691054614825647e-2)) * s + T(V(-9.090852527088297e-2)));
-        p = p * s2 + (T(V(1.1111109635603796e-1)) * s + T(V(-1.428571426608229e-1)));
-        p = p * s2 + (T(V(1.9999999999898324e-1)) * s + T(V(-3.333333333333325e-1)));
-        T core = z + z * (s * p);
-        V half_turn = std::numbers::pi_v<V>;
-        T octant = select(middle, T(half_turn / 4) + core, core);
-        T quadrant = select(steep, T(half_turn / 2) - octant, octant);
-        return select(obtuse, T(half_turn) - quadrant, quadrant);
-    }
-};
-
-/// Angle of the vector (x, y) with y >= 0, from 0 to pi; 0 for the zero vector.
-template <class T>
-T upper_angle(T const& y, T const& x) noexcept {
-    reduced_angle<T> a(y, x);
-    T zero(value_t<T>(0));
-    return a.angle(a.above / select(a.below > zero, a.below, T(value_t<T>(1))));
-}
-
-/// Replaces five numbers by their inverses, with one division where the range of the numbers allows for a product of
-/// five (a pack's division takes as long as ten multiplications).
-template <class T>
-void invert(T& a, T& b, T& c, T& d, T& e) noexcept {
-    using V = value_t<T>;
-    if constexpr (std::numeric_limits<V>::max_exponent10 < 300) {
-        T one(V(1));
-        a = one / a, b = one / b, c = one / c, d = one / d, e = one / e;
-    } else {
-        T ab = a * b, cd = c * d;
-        T abe = ab * e;
-        T all = T(V(1)) / (abe * cd);
-        T for_cd = all * abe, for_abe = all * cd;
-        T for_ab = for_abe * e;
-        e = for_abe * ab;
-        T a_old = a, c_old = c;
-        a = for_ab * b;
-        b = for_ab * a_old;
-        c = for_cd * d;
-        d = for_cd * c_old;
-    }
-}
-
-} // namespace detail
 
 /// Area of the triangle a, b, c; positive when counter-clockwise. m^2.
 template <class T>
@@ -179,6 +108,162 @@ template <class T>
 vec<T, 2> pore_traction(vec<T, 2> const& xi, vec<T, 2> const& xj, vec<T, 2> const& xk, T const& ri, T const& rj,
                         T const& rk, T const& thickness) noexcept {
     return measure_pore(xi, xj, xk, ri, rj, rk).traction[0] * thickness;
+}
+
+/// Volume of the tetrahedron a, b, c, d; positive when a, b, c turn counter-clockwise as seen from d. m^3.
+template <class T>
+constexpr T tetrahedron_volume(vec<T, 3> const& a, vec<T, 3> const& b, vec<T, 3> const& c,
+                               vec<T, 3> const& d) noexcept {
+    return dot(cross(b - a, c - a), d - a) / T(value_t<T>(6));
+}
+
+/// Area of a triangle in space, not negative. m^2.
+template <class T>
+T triangle_area(vec<T, 3> const& a, vec<T, 3> const& b, vec<T, 3> const& c) noexcept {
+    return norm(cross(b - a, c - a)) * T(value_t<T>(0.5));
+}
+
+namespace detail {
+
+/// Solid angle at a corner: `twisted` the triple product of its edges' vectors, their lengths and their products.
+template <class T>
+T solid_angle(T const& twisted, T const& u, T const& v, T const& w, T const& uv, T const& vw, T const& wu) noexcept {
+    return T(value_t<T>(2)) * upper_angle(twisted, u * v * w + uv * w + vw * u + wu * v);
+}
+
+} // namespace detail
+
+/// Solid angle under which the triangle of one, two, three is seen from `corner`, sr; 0 to 2 pi.
+///
+/// A. van Oosterom, J. Strackee, The solid angle of a plane triangle, IEEE Trans. Biomed. Eng. 30 (1983) 125:
+///   tan(Omega / 2) = |u . (v x w)| / (uvw + (u . v) w + (v . w) u + (w . u) v)
+template <class T>
+T solid_angle(vec<T, 3> const& corner, vec<T, 3> const& one, vec<T, 3> const& two, vec<T, 3> const& three) noexcept {
+    auto const u = one - corner, v = two - corner, w = three - corner;
+    return detail::solid_angle(abs(dot(u, cross(v, w))), norm(u), norm(v), norm(w), dot(u, v), dot(v, w), dot(w, u));
+}
+
+/// What the four spheres at the corners of a pore leave.
+template <class T>
+struct tetrahedron_shape {
+    T void_volume;         ///< m^3; see void_volume()
+    vec<T, 3> traction[4]; ///< on each corner, for 1 Pa: the derivative of the void by the corner's place, m^2
+};
+
+namespace detail {
+
+/// How much the dihedral angles along the sides of a facet, weighted, change when its corner k moves along the facet's
+/// normal, times twice the facet's area: see measure_pore().
+/// \param at_i, at_j products of the sides that meet in the corners i and j; \param ij, ik, jk weights over lengths
+template <class T>
+T folding(T const& at_i, T const& at_j, T const& ij, T const& ik, T const& jk) noexcept {
+    return at_i * (ij - ik) + at_j * (ij - jk);
+}
+
+} // namespace detail
+
+/// Void and tractions of a pore in space together. Not a number where two centres coincide or three lie on a line.
+///
+/// A sector is r^3 Omega / 3, the solid angle Omega the sum of the three dihedral angles at the corner less pi: the
+/// sectors are the sum over the edges of (r_i^3 + r_j^3) theta_ij / 3, but for a constant. The dihedral angle along the
+/// edge ij changes with the corner k of a facet ijk by the edge's length over twice the facet's area, along the facet's
+/// normal; with i and j by what keeps it at rigid motions. So each facet adds a vector along its normal to each of its
+/// corners, and these three have no sum. The tractions of a pore have no sum and no moment.
+template <class T>
+tetrahedron_shape<T> measure_pore(vec<T, 3> const& a, vec<T, 3> const& b, vec<T, 3> const& c, vec<T, 3> const& d,
+                                  T const& ra, T const& rb, T const& rc, T const& rd) noexcept {
+    using V = value_t<T>;
+    vec<T, 3> ab = b - a, ac = c - a, ad = d - a, bc = c - b, bd = d - b, cd = d - c;
+    T lab = norm(ab), lac = norm(ac), lad = norm(ad), lbc = norm(bc), lbd = norm(bd), lcd = norm(cd);
+    // Outwards, twice the area long; named after the opposite corner.
+    vec<T, 3> at_a = cross(bc, bd), at_b = cross(ad, ac), at_c = cross(ab, ad), at_d = cross(ac, ab);
+    T twisted = -dot(at_d, ad), height = abs(twisted);
+
+    // Products of the two edges from a corner: a_bc is that of ab and ac.
+    T a_bc = dot(ab, ac), a_cd = dot(ac, ad), a_bd = dot(ab, ad);
+    T b_ac = -dot(ab, bc), b_ad = -dot(ab, bd), b_cd = dot(bc, bd);
+    T c_ab = dot(ac, bc), c_ad = -dot(ac, cd), c_bd = -dot(bc, cd);
+    T d_ab = dot(ad, bd), d_ac = dot(ad, cd), d_bc = dot(bd, cd);
+
+    T qa = ra * ra * ra, qb = rb * rb * rb, qc = rc * rc * rc, qd = rd * rd * rd;
+    T sectors = qa * detail::solid_angle(height, lab, lac, lad, a_bc, a_cd, a_bd) +
+                qb * detail::solid_angle(height, lab, lbc, lbd, b_ac, b_cd, b_ad) +
+                qc * detail::solid_angle(height, lac, lbc, lcd, c_ab, c_bd, c_ad) +
+                qd * detail::solid_angle(height, lad, lbd, lcd, d_ab, d_bc, d_ac);
+
+    T mab = (qa + qb) / lab, mac = (qa + qc) / lac, mad = (qa + qd) / lad;
+    T mbc = (qb + qc) / lbc, mbd = (qb + qd) / lbd, mcd = (qc + qd) / lcd;
+    T third = T(V(1.0 / 3));
+    vec<T, 3> of_a = at_a * (third / squared_norm(at_a)), of_b = at_b * (third / squared_norm(at_b));
+    vec<T, 3> of_c = at_c * (third / squared_norm(at_c)), of_d = at_d * (third / squared_norm(at_d));
+    T sixth = T(V(-1.0 / 6));
+    tetrahedron_shape<T> shape;
+    shape.void_volume = twisted * T(V(1.0 / 6)) - sectors * third;
+    shape.traction[0] = at_a * sixth - of_b * detail::folding(c_ad, d_ac, mcd, mac, mad) -
+                        of_c * detail::folding(b_ad, d_ab, mbd, mab, mad) -
+                        of_d * detail::folding(b_ac, c_ab, mbc, mab, mac);
+    shape.traction[1] = at_b * sixth - of_a * detail::folding(c_bd, d_bc, mcd, mbc, mbd) -
+                        of_c * detail::folding(a_bd, d_ab, mad, mab, mbd) -
+                        of_d * detail::folding(a_bc, c_ab, mac, mab, mbc);
+    shape.traction[2] = at_c * sixth - of_a * detail::folding(b_cd, d_bc, mbd, mbc, mcd) -
+                        of_b * detail::folding(a_cd, d_ac, mad, mac, mcd) -
+                        of_d * detail::folding(a_bc, b_ac, mab, mac, mbc);
+    shape.traction[3] = at_d * sixth - of_a * detail::folding(b_cd, c_bd, mbc, mbd, mcd) -
+                        of_b * detail::folding(a_cd, c_ad, mac, mad, mcd) -
+                        of_c * detail::folding(a_bd, b_ad, mab, mad, mbd);
+    return shape;
+}
+
+/// \name A pore by its corners, in the plane and in space
+/// \{
+template <class T>
+pore_shape<T> measure_simplex(std::array<vec<T, 2>, 3> const& x, std::array<T, 3> const& r) noexcept {
+    return measure_pore(x[0], x[1], x[2], r[0], r[1], r[2]);
+}
+template <class T>
+tetrahedron_shape<T> measure_simplex(std::array<vec<T, 3>, 4> const& x, std::array<T, 4> const& r) noexcept {
+    return measure_pore(x[0], x[1], x[2], x[3], r[0], r[1], r[2], r[3]);
+}
+/// \}
+
+/// Volume of the tetrahedron less the four spherical sectors r^3 Omega / 3 in it; negative where the spheres overlap
+/// too much to leave a void, and for a tetrahedron that has turned over. m^3. Not a number where two centres coincide.
+template <class T>
+T void_volume(vec<T, 3> const& a, vec<T, 3> const& b, vec<T, 3> const& c, vec<T, 3> const& d, T const& ra, T const& rb,
+              T const& rc, T const& rd) noexcept {
+    return measure_pore(a, b, c, d, ra, rb, rc, rd).void_volume;
+}
+
+/// Pore volume V_p, m^3: the void, not less than `floor`.
+template <class T>
+T pore_volume(vec<T, 3> const& a, vec<T, 3> const& b, vec<T, 3> const& c, vec<T, 3> const& d, T const& ra, T const& rb,
+              T const& rc, T const& rd, T const& floor) noexcept {
+    return max(void_volume(a, b, c, d, ra, rb, rc, rd), floor);
+}
+
+/// The section of a facet throat.
+template <class T>
+struct facet_shape {
+    T area;             ///< of the triangle of the centres, m^2
+    T void_area;        ///< what the spheres leave of it, m^2; negative where they overlap too much
+    T hydraulic_radius; ///< void_area over the length of the arcs that bound it, m
+};
+
+/// Section of the throat between three spheres. Not a number where two centres coincide or all radii are 0.
+template <class T>
+facet_shape<T> measure_facet(vec<T, 3> const& a, vec<T, 3> const& b, vec<T, 3> const& c, T const& ra, T const& rb,
+                             T const& rc) noexcept {
+    T const half(value_t<T>(0.5));
+    auto const angle = [](vec<T, 3> const& corner, vec<T, 3> const& one, vec<T, 3> const& other) {
+        auto const u = one - corner, v = other - corner;
+        return detail::upper_angle(norm(cross(u, v)), dot(u, v));
+    };
+    T const arc_a = ra * angle(a, b, c), arc_b = rb * angle(b, c, a), arc_c = rc * angle(c, a, b);
+    facet_shape<T> shape;
+    shape.area = triangle_area(a, b, c);
+    shape.void_area = shape.area - half * (ra * arc_a + rb * arc_b + rc * arc_c);
+    shape.hydraulic_radius = shape.void_area / (arc_a + arc_b + arc_c);
+    return shape;
 }
 
 } // namespace lacuna

@@ -14,7 +14,6 @@
 #include <lacuna/core/error.hpp>
 #include <lacuna/core/points.hpp>
 #include <lacuna/pores/geometry.hpp>
-#include <lacuna/pores/geometry_space.hpp>
 
 namespace lacuna {
 

@@ -154,9 +154,9 @@ void finish(pore_network<Real, Dim>& net, std::vector<throat_record<Real, Dim>> 
 
 } // namespace detail
 
-/// The pores and throats of a body. In the plane each triangle is a pore, each edge a throat of length r_i + r_j; in space
-/// each tetrahedron is a pore, each facet a throat, as long as the mean of r_i + r_j over its three edges. Volumes and
-/// apertures are left at 0 for the flow solver to fill in.
+/// The pores and throats of a body. In the plane each triangle is a pore, each edge a throat of length r_i + r_j; in
+/// space each tetrahedron is a pore, each facet a throat, as long as the mean of r_i + r_j over its three edges. Volumes
+/// and apertures are left at 0 for the flow solver to fill in.
 ///
 /// \param mesh from triangulate_body()
 /// \param points centres of all particles, m; \param radii theirs, m, > 0 at every corner of the mesh
@@ -174,8 +174,8 @@ pore_network<Real, Dim> make_pore_network(pore_mesh<Dim> const& mesh, points_vie
         for (std::size_t c = 0; c <= Dim; ++c) {
             auto const i = mesh.simplices[t][c];
             if (i < 0 || std::size_t(i) >= points.size())
-                refuse((Dim == 2 ? "corner of triangle " : "corner of tetrahedron ") + std::to_string(t), std::to_string(i),
-                       "the number of a particle");
+                refuse((Dim == 2 ? "corner of triangle " : "corner of tetrahedron ") + std::to_string(t),
+                       std::to_string(i), "the number of a particle");
             require_positive("radius of particle " + std::to_string(i), double(radii[i]));
             net.corner[c].push_back(i);
             auto const x = points[std::size_t(i)];

@@ -14,7 +14,6 @@
 #include <lacuna/core/records.hpp>
 #include <lacuna/pores/flow_sums.hpp>
 #include <lacuna/pores/geometry.hpp>
-#include <lacuna/pores/geometry_space.hpp>
 #include <lacuna/pores/pack_access.hpp>
 #include <lacuna/pores/pore_network.hpp>
 
@@ -93,7 +92,8 @@ public:
     void for_each_corner(pore_network<Real, Dim> const& net, Visit const& visit) const {
         if (net.bare()) return;
         for (std::size_t p = 0; p < net.pores(); ++p)
-            for (std::size_t c = 0; c < corners; ++c) visit(std::size_t(net.corner[c][p]), std::uint32_t(place_of(p, c)));
+            for (std::size_t c = 0; c < corners; ++c)
+                visit(std::size_t(net.corner[c][p]), std::uint32_t(place_of(p, c)));
     }
     /// Where the zeros of a force that is none stand in forces().
     std::uint32_t zero_offset() const noexcept { return std::uint32_t(corners * packs_ * width * force_reals); }

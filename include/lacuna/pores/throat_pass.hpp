@@ -11,7 +11,7 @@
 #include <lacuna/core/records.hpp>
 #include <lacuna/laws/aperture.hpp>
 #include <lacuna/pores/flow_sums.hpp>
-#include <lacuna/pores/geometry_space.hpp>
+#include <lacuna/pores/geometry.hpp>
 #include <lacuna/pores/pack_access.hpp>
 #include <lacuna/pores/pore_network.hpp>
 
@@ -111,7 +111,7 @@ public:
             std::size_t const slot = std::size_t(list[n]) * width;
             lanes conductance;
             if constexpr (Moves) {
-                auto const [aperture, opening] = open<Aperture>(slot, place, pair_forces, parameters);
+                auto [aperture, opening] = open<Aperture>(slot, place, pair_forces, parameters);
                 conductance = lanes::load(factor_.data() + slot) * opening;
                 aperture.store(net.aperture.data() + slot);
                 conductance.store(net.conductance.data() + slot);

@@ -6,7 +6,7 @@
 
 #include <lacuna/core/pack.hpp>
 #include <lacuna/core/points.hpp>
-#include <lacuna/pores/geometry_space.hpp>
+#include <lacuna/pores/geometry.hpp>
 #include <lacuna/pores/pore_network.hpp>
 
 namespace lacuna {

@@ -27,6 +27,7 @@ struct simulation_parameters {
     std::vector<bond_values> bonds{};               ///< values of single bonds; none, or one entry per bond
     vec<double, dim> gravity{};                     ///< m/s^2
     interaction_parameters interactions{};
+    typename Model::domain::template parameters<dim> domain{}; ///< periodic or open
     typename Model::damping::parameters damping{};
     std::vector<wall<typename Model::contact_law, dim>> walls{};
     typename Model::flow::parameters flow{};
@@ -53,6 +54,7 @@ struct simulation_parameters {
         require_positive("thickness", thickness);
         for (int axis = 0; axis < dim; ++axis) require_finite("gravity", gravity[axis]);
         interactions.validate("interactions");
+        domain.validate("domain");
         damping.validate("damping");
         for (std::size_t w = 0; w < walls.size(); ++w) walls[w].validate("walls[" + std::to_string(w) + "]");
         flow.validate("flow");

@@ -146,6 +146,8 @@ public:
     bool remesh(Arguments&&...) noexcept {
         return false;
     }
+    template <class... Arguments>
+    void archive(Arguments&&...) noexcept {}
 };
 
 } // namespace lacuna

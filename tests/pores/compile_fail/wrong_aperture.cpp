@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // refused: aperture_law
 
-#include <lacuna/pores/explicit_flow.hpp>
+#include <lacuna/pores/flow_parameters.hpp>
 
 /// Takes the gap alone: an aperture law is also told the normal force.
 struct gap_aperture {
@@ -18,4 +18,4 @@ struct gap_aperture {
     }
 };
 
-lacuna::explicit_flow_with<gap_aperture>::parameters parameters;
+lacuna::flow_parameters<gap_aperture> parameters;

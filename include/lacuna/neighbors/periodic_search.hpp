@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <lacuna/neighbors/search.hpp>
+
+namespace lacuna {
+
+/// A search in a domain that repeats itself: any other search, given the images of particles near an end as well.
+///
+/// Distances are those of the shortest way. The list may hold, besides, pairs a rounding of the period beyond the limit:
+/// an image's place is rounded.
+template <neighbor_search Search>
+class periodic_search {
+public:
+    using real_type = typename Search::real_type;
+    static constexpr int dim = Search::dim;
+    using point = vec<real_type, dim>;
+
+    /// \param period m; 0 along open axes
+    void set_period(point const& period) { period_ = period; }
+    void set_threads(int threads) {
+        if constexpr (requires { search_.set_threads(threads); }) search_.set_threads(threads);
+    }
+
+    /// \copydoc neighbor_search
+    /// \throws std::invalid_argument also for a period below twice the reach, where two images could be in reach
+    void build(points_view<real_type, dim> const& points, real_type cutoff) {
+        detail::require_finite_points(points);
+        detail::require_length("cutoff", cutoff);
+        add_images(points, {}, cutoff);
+        search_.build(view_points(points_), cutoff + slack());
+    }
+    void pairs(std::vector<neighbor_pair>& out) const {
+        search_.pairs(out);
+        join_images(out);
+    }
+    void touching_pairs(points_view<real_type, dim> const& points, std::span<real_type const> radii, real_type margin,
+                        std::vector<neighbor_pair>& out) {
+        detail::require_finite_points(points);
+        real_type const largest = detail::require_radii(radii, points.size(), margin);
+        add_images(points, radii, 2 * largest + margin);
+        search_.touching_pairs(view_points(points_), radii_, margin + slack(), out);
+        join_images(out);
+    }
+
+private:
+    /// The points, brought into one period, and of those near its lower end an image beyond the upper one.
+    void add_images(points_view<real_type, dim> const& points, std::span<real_type const> radii, real_type reach) {
+        points_.resize(points.size());
+        of_.resize(points.size());
+        radii_.assign(radii.begin(), radii.end());
+        for (std::size_t k = 0; k < points.size(); ++k) {
+            points_[k] = points[k];
+            of_[k] = std::int32_t(k);
+        }
+        for (int axis = 0; axis < dim; ++axis) {
+            real_type const length = period_[axis];
+            if (!(length > 0)) continue;
+            if (!(length >= 2 * reach))
+                refuse("period", double(length), "at least twice the distance at which particles meet, " + to_text(double(2 * reach)));
+            for (auto& x : points_) x[axis] -= length * std::floor(x[axis] / length);
+            // Images of the axes before are copied too: corners have theirs.
+            std::size_t const here = points_.size();
+            for (std::size_t k = 0; k < here; ++k) {
+                if (!(points_[k][axis] <= reach + slack())) continue;
+                point image = points_[k];
+                image[axis] += length;
+                points_.push_back(image);
+                of_.push_back(of_[k]);
+                if (!radii.empty()) radii_.push_back(radii_[k]);
+            }
+        }
+    }
+    /// What the rounding of an image's place can add to a distance.
+    real_type slack() const noexcept {
+        real_type longest = 0;
+        for (int axis = 0; axis < dim; ++axis) longest = std::max(longest, period_[axis]);
+        return 16 * std::numeric_limits<real_type>::epsilon() * longest;
+    }
+    void join_images(std::vector<neighbor_pair>& out) const {
+        for (auto& pair : out) {
+            pair = {of_[std::size_t(pair.i)], of_[std::size_t(pair.j)]};
+            if (pair.i > pair.j) std::swap(pair.i, pair.j);
+        }
+        std::sort(out.begin(), out.end(),
+                  [](neighbor_pair const& a, neighbor_pair const& b) { return a.i < b.i || (a.i == b.i && a.j < b.j); });
+        out.erase(std::unique(out.begin(), out.end()), out.end());
+    }
+
+    Search search_;
+    point period_{};
+    std::vector<point> points_;
+    std::vector<real_type> radii_;
+    std::vector<std::int32_t> of_;
+};
+
+} // namespace lacuna
