@@ -130,7 +130,7 @@ std::vector<packing_result> run_packings(std::vector<packing_request> const& req
     }
 
     lacuna::progress_options speak;
-    speak.sink = how.progress;
+    speak.sink = open.empty() ? nullptr : how.progress;
     speak.terminal = lacuna::is_terminal(how.progress);
     speak.steps = std::max<long long>(1, usual_asks * static_cast<long long>(open.size()));
     speak.unit = nullptr;
