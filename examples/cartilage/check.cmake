@@ -346,7 +346,7 @@ elseif(CASE STREQUAL "study")
   same_results(merged)
   call(2 study merge part1 part2 part1 --out twice)
   expect("err MATCHES two.of.the.parts AND NOT EXISTS \"${SCRATCH}/twice\"")
-  call(0 ${request} --dry --zones deep --seeds 1 --no-snapshots --out dry --quiet)
+  call(0 ${request} --dry --shard 4/4 --no-snapshots --out dry --quiet)
   call(2 study merge part1 dry --out twice)
   expect("err MATCHES fluid AND NOT EXISTS \"${SCRATCH}/twice\"")
   # Another study's results are not replaced by accident.
