@@ -233,7 +233,7 @@ elseif(CASE STREQUAL "sensitivity")
   file(SHA256 "${SCRATCH}/result/sensitivity.csv" once)
   call(0 ${request} --jobs 1 --force)
   file(SHA256 "${SCRATCH}/result/sensitivity.csv" again)
-  expect("once MATCHES again")
+  expect("once STREQUAL again")
 
 elseif(CASE STREQUAL "calibrate")
   execute_process(COMMAND "${PROGRAM}" calibrate --out result --free odd RESULT_VARIABLE result ERROR_VARIABLE err)

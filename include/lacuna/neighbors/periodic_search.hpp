@@ -28,8 +28,7 @@ public:
         if constexpr (requires { search_.set_threads(threads); }) search_.set_threads(threads);
     }
 
-    /// \copydoc neighbor_search
-    /// \throws std::invalid_argument also for a period below twice the reach, where two images could be in reach
+    /// As neighbor_search says. \throws std::invalid_argument also for a period below twice the reach, where two images could be in reach
     void build(points_view<real_type, dim> const& points, real_type cutoff) {
         detail::require_finite_points(points);
         detail::require_length("cutoff", cutoff);
