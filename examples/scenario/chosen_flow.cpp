@@ -29,19 +29,19 @@ void chosen_flow::solver<Real, Dim>::map(lookup_type const& lookup) {
 }
 
 template <class Real, int Dim>
-void chosen_flow::solver<Real, Dim>::refresh_apertures(bodies const& place, Real const* pair_forces, int threads) {
-    std::visit([&](auto& one) { one.refresh_apertures(place, pair_forces, threads); }, chosen_);
+void chosen_flow::solver<Real, Dim>::refresh_apertures(bodies const& place, Real const* normal_forces, int threads) {
+    std::visit([&](auto& one) { one.refresh_apertures(place, normal_forces, threads); }, chosen_);
 }
 
 template <class Real, int Dim>
-void chosen_flow::solver<Real, Dim>::take_step(bool with_ledger, bodies const& place, Real const* pair_forces, Real dt,
+void chosen_flow::solver<Real, Dim>::take_step(bool with_ledger, bodies const& place, Real const* normal_forces, Real dt,
                                                int threads) {
     std::visit(
         [&](auto& one) {
             if (with_ledger)
-                one.template step<true>(place, pair_forces, dt, threads);
+                one.template step<true>(place, normal_forces, dt, threads);
             else
-                one.template step<false>(place, pair_forces, dt, threads);
+                one.template step<false>(place, normal_forces, dt, threads);
         },
         chosen_);
 }

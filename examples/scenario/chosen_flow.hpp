@@ -71,10 +71,10 @@ struct chosen_flow {
         void map_throats(Lookup const& lookup) {
             map(lookup_type(lookup));
         }
-        void refresh_apertures(bodies const& place, Real const* pair_forces, int threads = 1);
+        void refresh_apertures(bodies const& place, Real const* normal_forces, int threads = 1);
         template <bool WithLedger>
-        void step(bodies const& place, Real const* pair_forces, Real dt, int threads = 1) {
-            take_step(WithLedger, place, pair_forces, dt, threads);
+        void step(bodies const& place, Real const* normal_forces, Real dt, int threads = 1) {
+            take_step(WithLedger, place, normal_forces, dt, threads);
         }
         /// One step of flow alone.
         void advance(Real dt, int threads);
@@ -96,7 +96,7 @@ struct chosen_flow {
 
     private:
         void map(lookup_type const& lookup);
-        void take_step(bool with_ledger, bodies const& place, Real const* pair_forces, Real dt, int threads);
+        void take_step(bool with_ledger, bodies const& place, Real const* normal_forces, Real dt, int threads);
 
         parameters parameters_;
         std::variant<typename lacuna::no_flow::solver<Real, 2>, explicit_type, implicit_type> chosen_;

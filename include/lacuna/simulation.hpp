@@ -155,6 +155,7 @@ public:
     void fill_pores(Make const& make)
         requires(has_fluid<Model>)
     {
+        interactions_.keep_normal_forces();
         fluid_.fill(store_, interactions_, parameters_.flow, parameters_.remeshing, dim == 2 ? parameters_.thickness : 1.0, make);
         time_step_.reset();
     }
@@ -252,7 +253,7 @@ public:
         ar(wall_drive_);
         fluid_.archive(ar, store_);
         ar(events_, kicked_, motions_, plates_, ledger_, growth_, time_step_, moved_, step_, planned_steps_, planned_end_);
-        ar(clock_.time, clock_.step, clock_.last, streams_);
+        ar(clock_.time, clock_.step, clock_.last);
         require_state(motions_.fits(store_.size()), "a motion prescribed to no particle");
         require_state(plates_.fit(store_.size()), "a rigid plate of no particle");
         for (auto const& k : kicked_) require_state(k.particle < store_.size(), "a velocity given to no particle");
@@ -294,30 +295,36 @@ private:
                                     carries_moment<contact_law_type>;
         bool const on_time = parameters_.velocities_on_time && (step_ == 0 || !kicked_.empty());
         bool remeshed = false;
-        bool at_once = !further_forces && kicked_.empty() && !on_time;
-        // Whoever gives velocities again and again does not want the forces laid out anew each time.
-        if (!kicked_.empty() && step_ > 0) streams_ = false;
-        interactions_.set_mode(store_, streams_ && at_once && !parameters_.keep_pair_forces, parameters_.threads);
+        interactions_.set_mode(store_, !parameters_.keep_pair_forces, parameters_.threads);
         auto const& spans = interactions_.spans();
-        at_once = at_once && spans.count() == parameters_.threads;
-        if (at_once) {
-            // A particle's pairs belong to it and to lower-numbered ones: once the pairs of a chunk are evaluated,
-            // nothing reads its particles again, and they can move while they are in the cache.
+        // A particle's pairs belong to it and to lower-numbered ones: once the pairs of a chunk are evaluated, nothing
+        // reads its particles again, and `finish` can treat them while they and their forces are in the cache.
+        auto const evaluate_spans = [&](auto const& finish) {
             for_each_chunk(spans.count(), parameters_.threads, [&](int s) {
                 int const end = s + 1 < spans.count() ? spans.begin(s + 1) : chunks;
                 for (int c = spans.begin(s); c < end; ++c) {
                     interactions_.template evaluate<WithEnergy>(store_, c, before);
-                    if (c >= spans.frontier_end(s)) move<WithEnergy>(c, dt, nullptr);
+                    if (c >= spans.frontier_end(s)) finish(c);
                 }
             });
             for_each_chunk(spans.count(), parameters_.threads, [&](int s) {
-                for (int c = spans.begin(s); c < spans.frontier_end(s); ++c) move<WithEnergy>(c, dt, nullptr);
+                for (int c = spans.begin(s); c < spans.frontier_end(s); ++c) finish(c);
+            });
+        };
+        if (!further_forces && kicked_.empty() && !on_time && spans.count() == parameters_.threads) {
+            evaluate_spans([&](int c) {
+                interactions_.with_fresh_forces_on(c, [&](auto const& force) { move<WithEnergy>(c, dt, force, nullptr); });
             });
         } else {
             // The slip of a step is that of the motion before it, which was not at velocities given since.
             std::for_each(kicked_.rbegin(), kicked_.rend(), [&](kick& k) { exchange(k); });
-            for_each_chunk(chunks, parameters_.threads,
-                           [&](int c) { interactions_.template evaluate<WithEnergy>(store_, c, before); });
+            if (interactions_.streams()) {
+                interactions_.prepare_sums(store_);
+                evaluate_spans([&](int c) { interactions_.keep_sums(store_, c); });
+            } else {
+                for_each_chunk(chunks, parameters_.threads,
+                               [&](int c) { interactions_.template evaluate<WithEnergy>(store_, c, before); });
+            }
             if (further_forces) remeshed = add_further_forces<WithEnergy>(before, changed);
             drive_walls(double(dt));
             for (auto& k : kicked_) {
@@ -326,8 +333,10 @@ private:
             }
             if (on_time) set_back((before + dt) / 4);
             kicked_.clear();
-            for_each_chunk(chunks, parameters_.threads,
-                           [&](int c) { move<WithEnergy>(c, dt, further_forces ? &extra_ : nullptr); });
+            for_each_chunk(chunks, parameters_.threads, [&](int c) {
+                interactions_.with_forces_on(
+                    c, [&](auto const& force) { move<WithEnergy>(c, dt, force, further_forces ? &extra_ : nullptr); });
+            });
         }
         collect_events();
         moved_ = checked_motion<real, dim>(store_, reports_, dt, smallest_radius_, now());
@@ -402,14 +411,12 @@ private:
             for (bool const spin : {false, true}) once(k, spin);
     }
 
-    template <bool WithEnergy>
-    void move(int chunk, real dt, record_column<real> const* extra) {
+    template <bool WithEnergy, class PairForce>
+    void move(int chunk, real dt, PairForce const& pair_force, record_column<real> const* extra) {
         std::size_t const first = std::size_t(chunk) * interactions_type::chunk_particles;
         int const count = int(std::min(store_.size() - first, std::size_t(interactions_type::chunk_particles)));
-        interactions_.with_forces_on(chunk, [&](auto const& pair_force) {
-            Model::integrator::template advance<WithEnergy, damping_type>(
-                store_, first, count, dt, pair_force, parameters_.damping, extra, reports_[std::size_t(chunk)]);
-        });
+        Model::integrator::template advance<WithEnergy, damping_type>(
+            store_, first, count, dt, pair_force, parameters_.damping, extra, reports_[std::size_t(chunk)]);
     }
 
     /// \return whether the pores were made anew
@@ -552,7 +559,6 @@ private:
     step_clock clock_{parameters_.start_time, 0, 0};
     real moved_ = 0, smallest_radius_ = 1;
     long long step_ = 0, planned_steps_ = 0, planned_end_ = 0;
-    bool streams_ = true;
 };
 
 } // namespace lacuna

@@ -241,18 +241,19 @@ TEST_CASE("a step follows its formulas throat by throat and pore by pore, for an
     for (std::size_t k = 0; k < before.pores(); ++k) stored += before.volume[k] * pressure[k] * pressure[k] / 2000;
     REQUIRE_THAT(energy, WithinRel(stored, 1e-13));
 
-    // Pair forces: records in the reverse order of the throats, none for every fourth.
-    std::vector<double> forces(4 * before.throats() + 4, 99.0);
+    // Normal forces: in the reverse order of the throats, none for every fourth.
+    std::vector<double> forces(before.throats() + 1, 99.0);
+    forces[0] = 0;
     std::size_t const open = before.open_throats();
     std::vector<double> normal(open, 0.0);
     flow.map_throats([&](std::int32_t i, std::int32_t j) -> int {
         std::size_t t = 0;
         while (before.throat_particle[0][t] != i || before.throat_particle[1][t] != j) ++t;
         REQUIRE(t < open);
-        if (t % 4 == 3) return -1;
+        if (t % 4 == 3) return 0;
         normal[t] = 4 * uniform(engine) - 3;
-        forces[4 * (open - t) + 3] = normal[t];
-        return int(4 * (open - t));
+        forces[open - t] = normal[t];
+        return int(open - t);
     });
     for (auto& x : b.x) x += point{0.01 * (uniform(engine) - 0.5), 0.01 * (uniform(engine) - 0.5)};
     double const dt = 1e-4;
@@ -479,10 +480,10 @@ TEST_CASE("mass and energy balance in every step while the body moves") {
             auto const i = std::size_t(one), j = std::size_t(other);
             return norm(b.x[j] - b.x[i]) - b.r[i] - b.r[j];
         };
-        std::vector<double> forces;
+        std::vector<double> forces{0};
         flow.map_throats([&](int i, int j) {
-            forces.insert(forces.end(), {0, 0, 0, std::min(10 * gap_of(i, j), 0.0)});
-            return int(forces.size()) - 4;
+            forces.push_back(std::min(10 * gap_of(i, j), 0.0));
+            return int(forces.size()) - 1;
         });
         flow.step<true>(b.place(), forces.data(), dt);
         auto const& net = flow.network();

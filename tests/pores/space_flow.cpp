@@ -186,20 +186,19 @@ TEST_CASE("a step of facet throats follows its formulas throat by throat and por
     std::mt19937_64 engine(6);
     auto pressure = before.pressure;
     for (std::size_t k = 0; k < before.pores(); ++k) flow.set_pressure(k, pressure[k] = uniform(engine) - 0.5);
-    // Pair forces: two records a pair, none for every fourth.
+    // Normal forces, none for every fourth pair.
     std::map<std::array<std::int32_t, 2>, double> normal;
-    std::vector<double> forces(8, 99.0);
+    std::vector<double> forces{0};
     flow.map_throats([&](std::int32_t i, std::int32_t j) -> int {
         std::array<std::int32_t, 2> const pair{std::min(i, j), std::max(i, j)};
         if (auto const known = normal.find(pair); known != normal.end() && known->second != 0) {
-            for (std::size_t k = 8; k < forces.size(); k += 8)
-                if (forces[k + 3] == known->second) return int(k);
+            for (std::size_t k = 1; k < forces.size(); ++k)
+                if (forces[k] == known->second) return int(k);
         }
-        if ((i + j) % 4 == 3) return normal[pair] = 0, -1;
+        if ((i + j) % 4 == 3) return normal[pair] = 0, 0;
         normal[pair] = 4 * uniform(engine) - 3;
-        forces.resize(forces.size() + 8, 99.0);
-        forces[forces.size() - 5] = normal[pair];
-        return int(forces.size()) - 8;
+        forces.push_back(normal[pair]);
+        return int(forces.size()) - 1;
     });
     for (auto& x : b.x) x += point{uniform(engine) - 0.5, uniform(engine) - 0.5, uniform(engine) - 0.5} * 0.01;
     double const dt = 1e-4;

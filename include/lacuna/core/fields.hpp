@@ -54,7 +54,7 @@ public:
     static constexpr std::size_t fields = field_count<Aggregate, Real>;
     using lanes = pack<Real, W>;
 
-    void resize(std::size_t packs) { data_.resize(packs * fields * W); }
+    void resize(std::size_t packs) { resize_with_room(data_, packs * fields * W); }
 
     Aggregate<lanes> load(std::size_t p) const noexcept {
         Real const* from = data_.data() + p * fields * W;

@@ -2,32 +2,55 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <vector>
 
+#include <lacuna/core/parallel.hpp>
 #include <lacuna/core/vec.hpp>
 #include <lacuna/neighbors/search.hpp>
 #include <lacuna/particles/store.hpp>
 
 namespace lacuna {
 
-/// The candidates of a neighbour list without the bonded pairs, each with the history it had, or a new one.
-/// \param candidates, bonds, old sorted by (i, j)
-/// \param fresh replaced; sorted
-/// \param make callable neighbor_pair -> entry, for pairs that were not in the list before
-template <class Bond, class Contact, class Make>
-void merge_contacts(std::vector<neighbor_pair> const& candidates, std::vector<Bond> const& bonds,
-                    std::vector<Contact> const& old, std::vector<Contact>& fresh, Make const& make) {
-    fresh.clear();
-    auto bond = bonds.begin();
-    auto known = old.begin();
-    for (neighbor_pair const& pair : candidates) {
-        auto const earlier = [&](auto const& e) { return e.i < pair.i || (e.i == pair.i && e.j < pair.j); };
-        auto const same = [&](auto const& e) { return e.i == pair.i && e.j == pair.j; };
-        while (bond != bonds.end() && earlier(*bond)) ++bond;
-        if (bond != bonds.end() && same(*bond)) continue;
-        while (known != old.end() && earlier(*known)) ++known;
-        fresh.push_back(known != old.end() && same(*known) ? *known : make(pair));
-    }
+/// Makes a table of the candidates of a neighbour list without the bonded pairs, each with the history it had, or a
+/// new one.
+/// \param candidates, added sorted by (i, j)
+/// \param old the table until now; \param added pairs that were in no table of contacts, with a history
+/// \param fresh replaced
+/// \param make callable neighbor_pair -> entry, for pairs that were not known before
+template <class Bonds, class Contacts, class Real, int Dim, class Make>
+void merge_contacts(std::vector<neighbor_pair> const& candidates, Bonds const& bonds, Contacts const& old,
+                    std::vector<typename Contacts::entry> const& added, Contacts& fresh,
+                    particle_store<Real, Dim> const& store, int threads, Make const& make) {
+    auto const for_each_new = [&](int c, auto const& visit) {
+        std::size_t bond = bonds.first_slot(c);
+        std::size_t const bonds_end = bonds.first_slot(c + 1);
+        auto const end = Contacts::first_of_chunk(candidates, c + 1);
+        for (auto pair = Contacts::first_of_chunk(candidates, c); pair != end; ++pair) {
+            while (bond < bonds_end && bonds.before(bond, *pair)) ++bond;
+            if (bond == bonds_end || !bonds.is(bond, *pair)) visit(*pair);
+        }
+    };
+    int const chunks = Contacts::chunks_of(store.size());
+    fresh.lay_out(chunks, threads, [&](int c) {
+        std::size_t count = 0;
+        for_each_new(c, [&](neighbor_pair const&) { ++count; });
+        return count;
+    });
+    for_each_chunk(chunks, threads, [&](int c) {
+        std::size_t known = old.first_slot(c);
+        std::size_t const known_end = old.first_slot(c + 1);
+        auto other = Contacts::first_of_chunk(added, c);
+        fresh.fill(c, store, [&](auto const& push) {
+            for_each_new(c, [&](neighbor_pair const& pair) {
+                while (known < known_end && old.before(known, pair)) ++known;
+                if (known < known_end && old.is(known, pair)) return push(old.get(known));
+                while (other != added.end() && (other->i < pair.i || (other->i == pair.i && other->j < pair.j))) ++other;
+                bool const found = other != added.end() && other->i == pair.i && other->j == pair.j;
+                push(found ? *other : make(pair));
+            });
+        });
+    });
 }
 
 /// History of a pair that becomes a candidate: it touches at r_i + r_j, or, within `tolerance` times the smaller

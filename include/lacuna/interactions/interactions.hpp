@@ -51,12 +51,12 @@ public:
                 bond_parameters_.add(BondLaw::combine(a.bond, b.bond, thickness));
             }
         Real gap = 0;
-        bond_entries_ = make_bonds<BondLaw, bond_entry>(
+        auto bond_entries = make_bonds<BondLaw, bond_entry>(
             store, bonds, [&](std::int32_t i, std::int32_t j) { return parameter_row(store, i, j); }, gap);
         if (!own.empty()) {
-            give_own_rows(store, bond_entries_, own, bond_parameters_);
+            give_own_rows(store, bond_entries, own, bond_parameters_);
             bond_rows_.resize(bonds.size());
-            for (auto const& e : bond_entries_) bond_rows_[std::size_t(e.label)] = e.parameter;
+            for (auto const& e : bond_entries) bond_rows_[std::size_t(e.label)] = e.parameter;
         }
         for (auto const& pair : bonds) bond_records_.push_back({pair});
         double mean = 0, largest = 0;
@@ -71,6 +71,7 @@ public:
             neighbors_.set_period(store.period().length);
         }
         if (has_contacts()) neighbors_.build(store.positions(), store.radii());
+        assign_bonds(store, bond_entries);
         rebuild_tables(store, true);
     }
 
@@ -108,6 +109,17 @@ public:
         neighbors_.set_threads(threads);
         forces_.build(store.size(), bonds_, contacts_);
     }
+    /// As force_store::keep_normals(); for find_normal_force().
+    void keep_normal_forces() { forces_.keep_normals(bonds_, contacts_); }
+    /// Whether forces are kept no longer than it takes to sum them up. A chunk's sums can be used while its forces are
+    /// fresh, by with_fresh_forces_on(), or are kept by keep_sums(), after prepare_sums(), for with_forces_on().
+    bool streams() const noexcept { return forces_.streams(); }
+    void prepare_sums(store_type const& store) { forces_.prepare_sums(store.size()); }
+    void keep_sums(store_type const& store, int chunk) { forces_.keep_sums(chunk, store.size()); }
+    template <class Use>
+    void with_fresh_forces_on(int chunk, Use const& use) const {
+        forces_.with_fresh_sums(chunk, use);
+    }
     chunk_spans const& spans() const noexcept { return forces_.spans(); }
 
     /// Pair forces of the pairs that a chunk of particles owns. Chunks are independent of each other.
@@ -118,12 +130,12 @@ public:
         if constexpr (!is_absent<BondLaw>)
             evaluate_chunk<pair_kind::bond, WithEnergy, BondLaw, Damping, Domain>(
                 bonds_, chunk, bond_parameters_, damping_, store, time_step, forces_.template begin<0>(bonds_, chunk),
-                forces_.template places<0>(bonds_, chunk), moments_.data(), energy[0],
+                forces_.template places<0>(bonds_, chunk), forces_.template normals_of<0>(), moments_.data(), energy[0],
                 [&](std::size_t pack) { break_bonds(store, chunk, pack, time_step); });
         if constexpr (!is_absent<ContactLaw>)
             evaluate_chunk<pair_kind::contact, WithEnergy, ContactLaw, Damping, Domain>(
                 contacts_, chunk, contact_parameters_, damping_, store, time_step, forces_.template begin<1>(contacts_, chunk),
-                forces_.template places<1>(contacts_, chunk), contact_moments_.data(), energy[1],
+                forces_.template places<1>(contacts_, chunk), forces_.template normals_of<1>(), contact_moments_.data(), energy[1],
                 [&](std::size_t pack) {
                     if (auto const k = find_deep_overlap(store, contacts_, pack); k >= 0) deep_overlap_[std::size_t(chunk)] = k;
                 });
@@ -205,6 +217,16 @@ public:
         return slot >= 0 ? forces_.template find<1>(slot) : -1;
     }
     Real const* force_column() const noexcept { return forces_.column(); }
+    /// Place in normal_forces() of the normal force of the pair (i, j), internal indices in any order; 0 if it is no pair.
+    std::int32_t find_normal_force(std::int32_t i, std::int32_t j) const noexcept {
+        if (i > j) std::swap(i, j);
+        std::int32_t slot = bonds_.find(i, j);
+        if (slot >= 0) return forces_.template find_normal<0>(slot);
+        slot = contacts_.find(i, j);
+        return slot >= 0 ? forces_.template find_normal<1>(slot) : 0;
+    }
+    /// Normal forces of all pairs, N, positive in tension, once keep_normal_forces() is called; the first is 0.
+    Real const* normal_forces() const noexcept { return forces_.normals(); }
 
     bond_table const& bonds() const noexcept { return bonds_; }
     contact_table const& contacts() const noexcept { return contacts_; }
@@ -233,32 +255,25 @@ private:
     }
 
     void rebuild_tables(store_type const& store, bool first) {
-        bool const bonds_change = first || !broken_.empty();
-        if (bonds_change) {
-            if (!first) take_entries(bonds_, store.size(), bond_entries_);
-            std::erase_if(bond_entries_, [&](bond_entry const& e) {
-                return bond_records_[std::size_t(e.label)].state != bond_state::intact;
-            });
+        if (!broken_.empty()) {
+            bonds_.filter(store, [&](std::size_t s) { return bond_records_[std::size_t(bonds_.label(s))].state == bond_state::intact; });
+            number_bonds(bond_records_, bonds_, store.size());
+            std::sort(broken_.begin(), broken_.end(), pair_before<contact_entry>);
         }
         if constexpr (!is_absent<ContactLaw>) {
-            take_entries(contacts_, store.size(), old_contacts_);
-            old_contacts_.insert(old_contacts_.end(), broken_.begin(), broken_.end());
-            if (!broken_.empty()) std::sort(old_contacts_.begin(), old_contacts_.end(), pair_before<contact_entry>);
-            merge_contacts(neighbors_.pairs(), bond_entries_, old_contacts_, new_contacts_, [&](neighbor_pair const& pair) {
-                return contact_entry{pair.i, pair.j, parameter_row(store, pair.i, pair.j), -1,
-                                     first_history<ContactLaw>(store, pair, first ? parameters_.initial_contact_tolerance : 0)};
-            });
-            contacts_.assign(new_contacts_, store.size(), store.ghost(0), store.ghost(1), store.ghost_distance());
-        }
-        if (bonds_change) {
-            assign_bonds(store);
+            std::swap(contacts_, old_contacts_);
+            merge_contacts(neighbors_.pairs(), bonds_, old_contacts_, broken_, contacts_, store, forces_.threads(),
+                           [&](neighbor_pair const& pair) {
+                               return contact_entry{pair.i, pair.j, parameter_row(store, pair.i, pair.j), -1,
+                                                    first_history<ContactLaw>(store, pair, first ? parameters_.initial_contact_tolerance : 0)};
+                           });
         }
         broken_.clear();
         build_rows(store);
     }
 
-    void assign_bonds(store_type const& store) {
-        bonds_.assign(bond_entries_, store.size(), store.ghost(0), store.ghost(1), store.ghost_distance());
+    void assign_bonds(store_type const& store, std::span<bond_entry const> entries) {
+        bonds_.assign(entries, store);
         if constexpr (carries_moment<BondLaw>) moments_.resize(bonds_.slots() * rotation_dim<Dim>);
         number_bonds(bond_records_, bonds_, store.size());
     }
@@ -274,13 +289,6 @@ private:
         chunk_events_.resize(chunks);
         energy_.resize(chunks);
         deep_overlap_.assign(chunks, -1);
-    }
-
-    template <class Table, class Entry>
-    static void take_entries(Table const& table, std::size_t particles, std::vector<Entry>& out) {
-        out.clear();
-        for (std::size_t s = 0; s < table.slots(); ++s)
-            if (!table.is_filler(s, particles)) out.push_back(table.get(s));
     }
 
     [[gnu::noinline]] void break_bonds(store_type const& store, int chunk, std::size_t pack, Real time_step) {
@@ -308,13 +316,12 @@ private:
     verlet_list<search_type> neighbors_;
     Real path_ = 0;
     bond_table bonds_;
-    contact_table contacts_;
+    contact_table contacts_, old_contacts_; ///< the old ones make room for the next table
     force_store<Real, Dim> forces_;
     std::vector<Real> moments_, contact_moments_; ///< on the first of each pair, by slot; of laws with moments only
     std::vector<bond_record> bond_records_;
-    std::vector<bond_entry> bond_entries_;
     std::vector<std::int32_t> bond_rows_; ///< of each bond, where bonds have values of their own
-    std::vector<contact_entry> old_contacts_, new_contacts_, broken_;
+    std::vector<contact_entry> broken_;
     std::vector<std::vector<pending_event>> chunk_events_;
     std::vector<break_event<Dim>> events_;
     std::vector<std::array<pair_energy, 3>> energy_; // of bonds, of contacts, correction for bonds that failed

@@ -40,8 +40,7 @@ private:
             require_state(states[b] >= 0 && states[b] <= std::int8_t(bond_state::broken_in_shear), "a bond's state");
             records[b].state = bond_state(states[b]);
         }
-        auto& left = pairs.bond_entries_;
-        left.clear();
+        std::vector<typename Interactions::bond_entry> left;
         for (auto const b : bonds) {
             require_state(b >= 0 && std::size_t(b) < records.size(), "a bond that there is not");
             auto const& ids = records[std::size_t(b)].particles;
@@ -54,14 +53,12 @@ private:
             require_state(0 <= e.i && e.i < e.j && std::size_t(e.j) < store.size() &&
                               e.parameter == pairs.parameter_row(store, e.i, e.j),
                           "the contact of a broken bond");
-        pairs.old_contacts_.clear();
-        merge_contacts(pairs.neighbors_.pairs(), left, pairs.old_contacts_, pairs.new_contacts_,
+        pairs.assign_bonds(store, left);
+        using contacts = typename Interactions::contact_table;
+        merge_contacts(pairs.neighbors_.pairs(), pairs.bonds_, contacts(), {}, pairs.contacts_, store, 1,
                        [&](neighbor_pair const& pair) {
-                           using entry = typename Interactions::contact_entry;
-                           return entry{pair.i, pair.j, pairs.parameter_row(store, pair.i, pair.j), -1, {}};
+                           return typename contacts::entry{pair.i, pair.j, pairs.parameter_row(store, pair.i, pair.j), -1, {}};
                        });
-        pairs.contacts_.assign(pairs.new_contacts_, store.size(), store.ghost(0), store.ghost(1), store.ghost_distance());
-        pairs.assign_bonds(store);
         pairs.build_rows(store);
         pairs.forces_.forget();
     }

@@ -163,6 +163,7 @@ enum class pair_kind { contact, bond };
 /// \tparam WithEnergy also sums up energies (the sums cost time, so they are only made when something asks)
 /// \param forces where the chunk's places begin
 /// \param places how many there are, and which is the first pack's; only `kept` and `first` are read
+/// \param normals where the normal forces go, by slot; nullptr: nowhere
 /// \param moments where the moments on the first of each pair go, rotation_dim numbers a slot; laws with moments only
 /// \param on_event called as on_event(pack) after a pack in which a bond has failed, or two particles overlap by
 ///        more than a radius; rare
@@ -171,7 +172,7 @@ template <pair_kind Kind, bool WithEnergy, class Law, class Damping, class Domai
                                       parameter_table<Law, Real> const& parameters,
                                       typename Damping::parameters const& damping,
                                       particle_store<Real, Dim> const& store, Real time_step, Real* forces,
-                                      force_places::row const& places,
+                                      force_places::row const& places, Real* normals,
                                       [[maybe_unused]] Real* moments, pair_energy& energy, OnEvent const& on_event) {
     using lanes = typename pair_table<Law, Real, Dim>::lanes;
     constexpr int W = lanes::width;
@@ -216,6 +217,7 @@ template <pair_kind Kind, bool WithEnergy, class Law, class Damping, class Domai
         store_pair_forces<Real, Dim>(forces + stride * W * place, frame.force(normal, answer.shear_force),
                                      frame.torque_per_radius(answer.shear_force), normal);
         if (++place == kept) place = 0;
+        if (normals) normal.store(normals + slot);
         if constexpr (carries_moment<Law>) {
             auto moment = frame.moment(answer);
             for (int k = 0; k < W; ++k)

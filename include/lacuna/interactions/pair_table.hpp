@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include <lacuna/core/fields.hpp>
+#include <lacuna/core/parallel.hpp>
 #include <lacuna/core/records.hpp>
+#include <lacuna/neighbors/search.hpp>
+#include <lacuna/particles/store.hpp>
 
 namespace lacuna {
 
@@ -34,40 +39,66 @@ public:
 
     /// Replaces all pairs. No allocation once the table was as large before.
     /// \param entries sorted by (i, j)
-    /// \param apart distance of the ghosts, m
-    void assign(std::span<entry const> entries, std::size_t particles, std::int32_t ghost0, std::int32_t ghost1, Real apart) {
-        std::size_t const chunks = (particles + chunk_particles - 1) / chunk_particles;
-        entry const filler{ghost0, ghost1, 0, -1, Law::template initial<Real, Dim>(apart, apart / 2)};
-        chunk_begin_.assign(1, 0);
-        i_.clear();
-        j_.clear();
-        parameter_.clear();
-        label_.clear();
-        uniform_.clear();
-        state_.resize(entries.size() / width + chunks + 1);
-        count_ = entries.size();
-        std::size_t next = 0;
-        auto const push = [&](entry const& e) {
-            state_.set(i_.size(), e.state);
-            i_.push_back(stride * std::uint32_t(e.i));
-            j_.push_back(stride * std::uint32_t(e.j));
-            parameter_.push_back(e.parameter);
-            label_.push_back(e.label);
-        };
-        for (std::size_t c = 0; c < chunks; ++c) {
-            auto const end = std::int64_t((c + 1) * chunk_particles);
-            for (; next < entries.size() && entries[next].i < end; ++next) push(entries[next]);
-            entry tail = filler;
-            if (!i_.empty()) tail.parameter = parameter_.back();
-            while (i_.size() % width != 0) push(tail);
-            chunk_begin_.push_back(i_.size() / width);
+    /// \param store of the particles, with the ghosts
+    void assign(std::span<entry const> entries, particle_store<Real, Dim> const& store) {
+        int const chunks = chunks_of(store.size());
+        auto const first = [&](int c) { return first_of_chunk(entries, c); };
+        lay_out(chunks, 1, [&](int c) { return std::size_t(first(c + 1) - first(c)); });
+        for (int c = 0; c < chunks; ++c)
+            fill(c, store, [&](auto const& push) {
+                for (auto e = first(c); e != first(c + 1); ++e) push(*e);
+            });
+    }
+
+    /// Makes room for `count(c)` pairs in each chunk c; their values are any until fill() has written them.
+    /// \param count called on up to `threads` threads
+    template <class Count>
+    void lay_out(int chunks, int threads, Count const& count) {
+        chunk_begin_.assign(std::size_t(chunks) + 1, 0);
+        for_each_chunk(chunks, threads, [&](int c) { chunk_begin_[std::size_t(c) + 1] = count(c); });
+        count_ = 0;
+        for (std::size_t c = 0; c < std::size_t(chunks); ++c) {
+            count_ += chunk_begin_[c + 1];
+            chunk_begin_[c + 1] = chunk_begin_[c] + (chunk_begin_[c + 1] + width - 1) / width;
         }
-        for (std::size_t p = 0; p < packs(); ++p) {
-            std::int32_t row = parameter_[p * width];
-            for (int k = 1; k < width; ++k)
-                if (parameter_[p * width + std::size_t(k)] != row) row = -1;
-            uniform_.push_back(row);
+        resize();
+    }
+    /// Writes the pairs of a chunk, as many as lay_out() was told. Chunks are independent of each other.
+    /// \param write callable that calls push(entry) for each, sorted by (i, j)
+    template <class Write>
+    void fill(int chunk, particle_store<Real, Dim> const& store, Write const& write) {
+        std::size_t slot = first_pack(chunk) * width;
+        write([&](entry const& e) { put(slot++, e); });
+        close(chunk, slot, store);
+    }
+
+    /// Leaves out the pairs for which keep(slot) is false.
+    template <class Keep>
+    void filter(particle_store<Real, Dim> const& store, Keep const& keep) {
+        // Towards the front, within the table itself: a pair never moves beyond where it was.
+        std::size_t slot = 0, old_first = 0;
+        count_ = 0;
+        for (int c = 0; c < chunks(); ++c) {
+            std::size_t const old_end = end_pack(c) * width;
+            chunk_begin_[std::size_t(c)] = slot / width;
+            for (std::size_t s = old_first; s < old_end; ++s) {
+                if (is_filler(s, store.size()) || !keep(s)) continue;
+                put(slot++, get(s));
+                ++count_;
+            }
+            slot = close(c, slot, store);
+            old_first = old_end;
         }
+        chunk_begin_.back() = slot / width;
+        resize();
+    }
+
+    static int chunks_of(std::size_t particles) noexcept { return int((particles + chunk_particles - 1) / chunk_particles); }
+    /// The first of the pairs, sorted by (i, j), that belong to a chunk or a later one.
+    template <class Pairs>
+    static auto first_of_chunk(Pairs const& pairs, int chunk) noexcept {
+        auto const begin = std::int64_t(chunk) * chunk_particles;
+        return std::partition_point(pairs.begin(), pairs.end(), [&](auto const& e) { return e.i < begin; });
     }
 
     std::size_t packs() const noexcept { return i_.size() / width; }
@@ -78,6 +109,14 @@ public:
     int chunks() const noexcept { return int(chunk_begin_.size()) - 1; }
     std::size_t first_pack(int chunk) const noexcept { return chunk_begin_[std::size_t(chunk)]; }
     std::size_t end_pack(int chunk) const noexcept { return chunk_begin_[std::size_t(chunk) + 1]; }
+
+    /// First slot of a chunk; of one beyond the last, slots().
+    std::size_t first_slot(int chunk) const noexcept { return chunk_begin_[std::size_t(std::min(chunk, chunks()))] * width; }
+    /// Whether a slot holds the given pair, or one before it.
+    bool is(std::size_t slot, neighbor_pair const& pair) const noexcept { return i(slot) == pair.i && j(slot) == pair.j; }
+    bool before(std::size_t slot, neighbor_pair const& pair) const noexcept {
+        return i(slot) < pair.i || (i(slot) == pair.i && j(slot) < pair.j);
+    }
 
     std::int32_t i(std::size_t slot) const noexcept { return std::int32_t(i_[slot] / stride); }
     std::int32_t j(std::size_t slot) const noexcept { return std::int32_t(j_[slot] / stride); }
@@ -95,22 +134,52 @@ public:
     std::int32_t find(std::int32_t i, std::int32_t j) const noexcept {
         int const chunk = int(i / chunk_particles);
         if (i < 0 || chunk >= chunks()) return -1;
-        auto const before = [&](std::size_t s) { return this->i(s) < i || (this->i(s) == i && this->j(s) < j); };
         std::size_t low = first_pack(chunk) * width, high = end_pack(chunk) * width;
         while (low < high) {
             std::size_t const middle = (low + high) / 2;
-            if (before(middle))
+            if (before(middle, {i, j}))
                 low = middle + 1;
             else
                 high = middle;
         }
-        return low < i_.size() && this->i(low) == i && this->j(low) == j ? std::int32_t(low) : -1;
+        return low < i_.size() && is(low, {i, j}) ? std::int32_t(low) : -1;
     }
     entry get(std::size_t slot) const noexcept {
         return {i(slot), j(slot), parameter_[slot], label_[slot], state_.get(slot)};
     }
 
 private:
+    void resize() {
+        std::size_t const packs = chunk_begin_.back(), slots = packs * width;
+        for (auto* indices : {&i_, &j_}) resize_with_room(*indices, slots);
+        for (auto* numbers : {&parameter_, &label_}) resize_with_room(*numbers, slots);
+        resize_with_room(uniform_, packs);
+        state_.resize(packs);
+    }
+    void put(std::size_t slot, entry const& e) noexcept {
+        i_[slot] = stride * std::uint32_t(e.i);
+        j_[slot] = stride * std::uint32_t(e.j);
+        parameter_[slot] = e.parameter;
+        label_[slot] = e.label;
+        state_.set(slot, e.state);
+    }
+    /// Fills up the last pack of a chunk, and looks which rows its packs have.
+    /// \param slot the first after the chunk's pairs \return the first after the chunk
+    std::size_t close(int chunk, std::size_t slot, particle_store<Real, Dim> const& store) noexcept {
+        Real const apart = store.ghost_distance();
+        std::size_t const first = first_pack(chunk) * width;
+        // In their pack's row, so that it has one.
+        std::int32_t const row = slot > first ? parameter_[slot - 1] : 0;
+        for (; slot % width != 0; ++slot)
+            put(slot, {store.ghost(0), store.ghost(1), row, -1, Law::template initial<Real, Dim>(apart, apart / 2)});
+        for (std::size_t s = first; s < slot; s += width) {
+            bool const same = std::all_of(parameter_.begin() + std::ptrdiff_t(s), parameter_.begin() + std::ptrdiff_t(s + width),
+                                          [&](std::int32_t r) { return r == parameter_[s]; });
+            uniform_[s / width] = same ? parameter_[s] : -1;
+        }
+        return slot;
+    }
+
     static constexpr std::uint32_t stride = body_column<Real>::stride;
     std::vector<std::uint32_t> i_, j_;
     std::vector<std::int32_t> parameter_, label_, uniform_;

@@ -237,7 +237,7 @@ private:
                      std::uint64_t row, std::size_t found, std::vector<neighbor_pair>& out) const {
         std::size_t const first = starts_[first_cell];
         std::size_t const last = starts_[first_cell + cells];
-        if (found + (last - first) > out.size()) out.resize(2 * found + (last - first) + 64);
+        if (found + (last - first) > out.size()) out.resize(found + found / 4 + (last - first) + 64);
         neighbor_pair* const to = out.data();
         auto const self = std::int32_t(i);
         Real const radius = radius_[own];

@@ -58,16 +58,16 @@ public:
     /// \tparam WithLedger also keeps ledger()
     /// \throws std::runtime_error when `substeps` = 0 and the step takes more than most_substeps
     template <bool WithLedger>
-    void step(body_column<Real> const& place, Real const* pair_forces, Real dt, int threads = 1) {
+    void step(body_column<Real> const& place, Real const* normal_forces, Real dt, int threads = 1) {
         if (this->network_.bare()) return advance<WithLedger>(dt, threads);
         this->template begin_step<WithLedger>();
         bool const flowing = this->flows() && dt > Real(0);
         if (this->parameters_.substeps == 1 || !flowing) {
-            if (flowing) this->template compute_flows<true>(place.data(), pair_forces, threads);
+            if (flowing) this->template compute_flows<true>(place.data(), normal_forces, threads);
             this->template advance_pressures<true, WithLedger>(place.data(), dt, Real(1), flowing, threads);
         } else {
             this->measure(place.data(), threads);
-            this->template compute_flows<true>(place.data(), pair_forces, threads);
+            this->template compute_flows<true>(place.data(), normal_forces, threads);
             this->template take_substeps<WithLedger>(count_substeps(dt), dt, threads, [&](bool first, Real, Real) {
                 if (!first) this->template compute_flows<false>(nullptr, nullptr, threads);
             });

@@ -17,7 +17,7 @@ namespace lacuna {
 
 namespace detail {
 struct any_pair_lookup {
-    std::int64_t operator()(std::int32_t, std::int32_t) const { return -1; }
+    std::int64_t operator()(std::int32_t, std::int32_t) const { return 0; }
 };
 } // namespace detail
 
@@ -31,13 +31,13 @@ template <class Policy>
 concept flow_policy = requires(typename Policy::parameters const& parameters,
                                typename Policy::template solver<double, 2>& solver,
                                typename Policy::template solver<double, 2> const& view,
-                               body_column<double> const& place, double const* pair_forces,
+                               body_column<double> const& place, double const* normal_forces,
                                record_column<double>& extra) {
     parameters.validate("flow");
     solver.map_throats(detail::any_pair_lookup{});
-    solver.refresh_apertures(place, pair_forces, 1);
-    solver.template step<true>(place, pair_forces, 1.0, 1);
-    solver.template step<false>(place, pair_forces, 1.0, 1);
+    solver.refresh_apertures(place, normal_forces, 1);
+    solver.template step<true>(place, normal_forces, 1.0, 1);
+    solver.template step<false>(place, normal_forces, 1.0, 1);
     view.write_tractions(extra, 1);
     { view.critical_time_step() } -> std::convertible_to<double>;
     { view.equation_19_time_step() } -> std::convertible_to<double>;

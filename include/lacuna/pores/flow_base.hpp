@@ -72,9 +72,9 @@ public:
         for (int c = 0; c < pores_.chunks(); ++c) pores_.measure(c, network_, place.data(), thickness_);
     }
 
-    /// Tells each throat where the force of its pair is; to be called whenever the pairs' places in memory change.
-    /// \param lookup callable (particle i, particle j) -> where the record of the pair's force begins, in reals from
-    ///        the beginning of all; negative where there is no such pair: no force
+    /// Tells each throat where the normal force of its pair is; to be called whenever the pairs' places in memory change.
+    /// \param lookup callable (particle i, particle j) -> place of the pair's normal force among all; 0, where no force
+    ///        is, when there is no such pair
     template <class Lookup>
     void map_throats(Lookup const& lookup) {
         if (!network_.bare()) throats_.map(network_, lookup);
@@ -82,12 +82,11 @@ public:
 
     /// New apertures of all throats, of those that are skipped as well.
     /// \param place records of the particles, as particle_store has them; here and below
-    /// \param pair_forces records of the pairs' forces, at least one; the fourth number is the normal force, N,
-    ///        positive in tension; here and below
-    void refresh_apertures(body_column<Real> const& place, Real const* pair_forces, int threads = 1) noexcept {
+    /// \param normal_forces of the pairs, N, positive in tension, the first is 0; here and below
+    void refresh_apertures(body_column<Real> const& place, Real const* normal_forces, int threads = 1) noexcept {
         if (network_.bare()) return;
         for_each_chunk(throats_.chunks(true), threads, [&](int c) {
-            throats_.template pass<true, false, aperture_type>(c, network_, place.data(), pair_forces,
+            throats_.template pass<true, false, aperture_type>(c, network_, place.data(), normal_forces,
                                                                parameters_.aperture);
         });
     }
@@ -155,7 +154,7 @@ protected:
         refresh_geometry(points, radii);
         network_.old_volume = network_.volume;
         // The sides of a facet are no pairs that touch: throats are opened by where the particles are.
-        if constexpr (Dim == 3) refresh_apertures(particle_records(points, radii), std::array<Real, 4>{}.data());
+        if constexpr (Dim == 3) refresh_apertures(particle_records(points, radii), std::array<Real, 1>{}.data());
     }
 
     /// Takes over a network and a ledger.
@@ -193,9 +192,9 @@ protected:
 
     /// Eq. 14 from the present pressures, for all throats that are not skipped; with Moves, new apertures first.
     template <bool Moves>
-    void compute_flows(Real const* place, Real const* pair_forces, int threads) noexcept {
+    void compute_flows(Real const* place, Real const* normal_forces, int threads) noexcept {
         for_each_chunk(throats_.chunks(false), threads, [&](int c) {
-            throats_.template pass<Moves, true, aperture_type>(c, network_, place, pair_forces, parameters_.aperture);
+            throats_.template pass<Moves, true, aperture_type>(c, network_, place, normal_forces, parameters_.aperture);
         });
     }
 
@@ -292,9 +291,8 @@ private:
         throats_.build(network_, Real(parameters_.conductivity));
         pore_sums_.resize(std::size_t(std::max(pores_.chunks(), 1)));
         throat_sums_.resize(std::size_t(throats_.chunks(true)));
-        std::size_t const particles = network_.particle_throats.first.size() - 1;
         corners_.build(
-            particles, [&](auto const& visit) { pores_.for_each_corner(network_, visit); }, pores_.zero_offset());
+            network_.particles, [&](auto const& visit) { pores_.for_each_corner(network_, visit); }, pores_.zero_offset());
         feed_.build(network_);
         clusters_.build(network_, parameters_.merge_conductance);
     }

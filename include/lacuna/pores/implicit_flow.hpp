@@ -101,13 +101,13 @@ public:
     /// step of 0 s pressures follow the volumes, and nothing flows.
     /// \tparam WithLedger also keeps ledger()
     template <bool WithLedger>
-    void step(body_column<Real> const& place, Real const* pair_forces, Real dt, int threads = 1) {
+    void step(body_column<Real> const& place, Real const* normal_forces, Real dt, int threads = 1) {
         if (this->network_.bare()) return advance<WithLedger>(dt, threads);
         this->template begin_step<WithLedger>();
         bool const flowing = this->flows() && dt > Real(0);
         if (flowing) {
             this->measure(place.data(), threads);
-            this->template compute_flows<true>(place.data(), pair_forces, threads);
+            this->template compute_flows<true>(place.data(), normal_forces, threads);
             this->template take_substeps<WithLedger>(
                 count_substeps(), dt, threads, [&](bool, Real part, Real share) { solve_flows(part, share); });
             this->press(threads);

@@ -24,6 +24,13 @@ pack<T, W> gather(T const* base, Index const* index) noexcept {
     }
 }
 
+/// W numbers that are kept in single precision.
+template <class T, int W>
+pack<T, W> load_single(float const* from) noexcept {
+    auto const single = pack<float, W>::load(from);
+    return pack<T, W>(__builtin_convertvector(single.v, typename pack<T, W>::native));
+}
+
 /// Numbers x[k], y[k] one after the other.
 template <class T, int W>
 void store_pairs(T* to, pack<T, W> const& x, pack<T, W> const& y) noexcept {

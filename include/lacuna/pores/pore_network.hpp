@@ -32,7 +32,7 @@ struct bare_throat {
 };
 
 /// Rows of a sparse table: entries first[i] to first[i + 1] belong to i. An entry 2 * throat + side says that i is
-/// at side 0 or 1 of the throat (a particle in space: 3 * throat + side, 0 to 2).
+/// at side 0 or 1 of the throat.
 struct incidence {
     std::vector<std::int32_t> first{0};
     std::vector<std::int32_t> entry;
@@ -69,8 +69,8 @@ struct pore_network {
     std::size_t interior_throats = 0;
     std::size_t drained_throats = 0;
 
-    incidence pore_throats;     ///< of each pore
-    incidence particle_throats; ///< of each particle
+    incidence pore_throats;    ///< of each pore
+    std::size_t particles = 0; ///< of the body, also those at no pore; 0 when bare
 
     std::size_t pores() const noexcept { return volume.size(); }
     std::size_t throats() const noexcept { return length.size(); }
@@ -127,6 +127,9 @@ void finish(pore_network<Real, Dim>& net, std::vector<throat_record<Real, Dim>> 
     net.pressure.assign(pores, Real(0));
     net.vapour.assign(pores, Real(0));
     net.place.assign(pores, pore_place::interior);
+    for (auto& column : net.throat_particle) column.reserve(records.size());
+    for (auto& column : net.throat_pore) column.reserve(records.size());
+    net.length.reserve(records.size());
     for (auto const& r : records) {
         for (std::size_t side = 0; side < r.particle.size(); ++side)
             net.throat_particle[side].push_back(r.particle[side]);
@@ -149,7 +152,7 @@ void finish(pore_network<Real, Dim>& net, std::vector<throat_record<Real, Dim>> 
     net.flow.assign(records.size(), Real(0));
     net.idle.assign(records.size(), 0);
     net.pore_throats = make_incidence(net.throat_pore, pores);
-    net.particle_throats = make_incidence(net.throat_particle, particles);
+    net.particles = particles;
 }
 
 } // namespace detail
@@ -169,6 +172,8 @@ pore_network<Real, Dim> make_pore_network(pore_mesh<Dim> const& mesh, points_vie
                                           Boundary const& boundary = {}) {
     pore_network<Real, Dim> net;
     net.volume.assign(mesh.size(), Real(0));
+    net.size.reserve(mesh.size());
+    for (auto& column : net.corner) column.reserve(mesh.size());
     vec<Real, Dim> low{}, high{};
     for (std::size_t t = 0; t < mesh.size(); ++t)
         for (std::size_t c = 0; c <= Dim; ++c) {

@@ -69,12 +69,12 @@ public:
         for (std::size_t p = 0; p < count; ++p)
             row_ = std::max(row_, std::size_t(throats.first[p + 1] - throats.first[p]));
         inflow_.assign(slots * row_, 0);
-        sign_.assign(slots * row_, Real(0));
+        sign_.assign(slots * row_, 0.0f);
         for (std::size_t p = 0; p < count; ++p)
             for (auto e = throats.first[p]; e < throats.first[p + 1]; ++e) {
                 std::size_t const at = (p / width * row_ + std::size_t(e - throats.first[p])) * width + p % width;
                 inflow_[at] = throats.entry[std::size_t(e)] / 2;
-                sign_[at] = throats.entry[std::size_t(e)] % 2 == 0 ? Real(1) : Real(-1);
+                sign_[at] = throats.entry[std::size_t(e)] % 2 == 0 ? 1.0f : -1.0f;
             }
     }
 
@@ -188,7 +188,7 @@ public:
             if (flows) {
                 for (std::size_t e = 0; e < row_; ++e) {
                     std::size_t const at = (p * row_ + e) * width;
-                    came += lanes::load(sign_.data() + at) * detail::gather<Real, width>(flow, inflow_.data() + at);
+                    came += detail::load_single<Real, width>(sign_.data() + at) * detail::gather<Real, width>(flow, inflow_.data() + at);
                 }
                 came *= dt;
             }
@@ -275,7 +275,7 @@ private:
     aligned_vector<Real> floor_, before_, force_;
     // Of pack p: row_ times a throat for each pore, and whether its flow comes in (1) or goes out (-1), or is none (0).
     aligned_vector<std::int32_t> inflow_;
-    aligned_vector<Real> sign_;
+    aligned_vector<float> sign_;
 };
 
 } // namespace lacuna

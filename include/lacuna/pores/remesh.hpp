@@ -81,6 +81,7 @@ private:
     /// Edges and corners of a mesh.
     void learn(pore_network<Real, 2> const& net, std::size_t particles) {
         edges_.clear();
+        edges_.reserve(net.throats());
         corner_.assign(particles, 0);
         for (std::size_t t = 0; t < net.throats(); ++t)
             edges_.push_back(sorted(net.throat_particle[0][t], net.throat_particle[1][t]));

@@ -42,9 +42,8 @@ public:
         for (auto& particle : particle_) particle.assign(slots, 0);
         for (auto& pore : pore_) pore.assign(slots, 0);
         factor_.assign(slots, Real(0));
-        drained_.assign(slots, Real(0));
+        drained_.assign(slots - std::min(slots, first_drained_slot()), Real(0));
         for (auto& force : force_) force.assign(slots, 0);
-        for (auto& paired : paired_) paired.assign(slots, Real(0));
         for (std::size_t t = 0; t < std::min(slots, net.throats()); ++t) {
             for (std::size_t side = 0; side < particle_.size(); ++side)
                 particle_[side][t] = std::uint32_t(body_column<Real>::stride) * std::uint32_t(std::max(net.throat_particle[side][t], 0));
@@ -67,7 +66,7 @@ public:
                 // Between a pore and itself nothing flows.
                 bool const passes = t < net.open_throats() && !net.idle[t];
                 pore_[1][t] = passes && t < interior_ ? net.throat_pore[1][t] : pore_[0][t];
-                drained_[t] = Real(passes && t >= interior_);
+                if (t >= first_drained_slot()) drained_[t - first_drained_slot()] = Real(passes && t >= interior_);
                 throats_ += passes;
             }
             if (throats_ > before) active_.push_back(std::int32_t(p));
@@ -76,16 +75,12 @@ public:
     /// Throats that are not skipped.
     std::size_t active_throats() const noexcept { return throats_; }
 
-    /// \param lookup lookup(particle i, particle j): where the record of the pair's force begins, in reals; < 0 if none
+    /// \param lookup lookup(particle i, particle j): place of the pair's normal force; 0 if there is none
     template <class Lookup>
     void map(pore_network<Real, Dim> const& net, Lookup const& lookup) {
         for (std::size_t t = 0; t < net.open_throats(); ++t)
-            for (std::size_t k = 0; k < pairs; ++k) {
-                auto const offset =
-                    std::int64_t(lookup(net.throat_particle[k][t], net.throat_particle[(k + 1) % std::size_t(Dim)][t]));
-                paired_[k][t] = Real(offset >= 0);
-                force_[k][t] = offset >= 0 ? std::uint32_t(offset) + 3 : 0;
-            }
+            for (std::size_t k = 0; k < pairs; ++k)
+                force_[k][t] = std::uint32_t(lookup(net.throat_particle[k][t], net.throat_particle[(k + 1) % std::size_t(Dim)][t]));
     }
 
     /// Packs of a pass: those with a throat that is not skipped, or all.
@@ -96,11 +91,10 @@ public:
     /// \tparam Moves first takes the apertures anew from the gaps and the pairs' normal forces
     /// \tparam Flows computes the flows from the network's pressures; else apertures and conductances alone, of all
     ///         throats
-    /// \param place records of the particles; \param pair_forces records of the pairs' forces, the normal force in
-    ///        their fourth number, at least one of them; used if Moves
+    /// \param place records of the particles; \param normal_forces of the pairs, the first is 0; used if Moves
     template <bool Moves, bool Flows, class Aperture>
     [[gnu::noinline, gnu::flatten]] void pass(int chunk, pore_network<Real, Dim>& net, Real const* place,
-                                              Real const* pair_forces,
+                                              Real const* normal_forces,
                                               typename Aperture::parameters const& aperture_parameters) const noexcept {
         using lanes = pack<Real, width>;
         auto const parameters = aperture_parameters;
@@ -111,7 +105,7 @@ public:
             std::size_t const slot = std::size_t(list[n]) * width;
             lanes conductance;
             if constexpr (Moves) {
-                auto [aperture, opening] = open<Aperture>(slot, place, pair_forces, parameters);
+                auto [aperture, opening] = open<Aperture>(slot, place, normal_forces, parameters);
                 conductance = lanes::load(factor_.data() + slot) * opening;
                 aperture.store(net.aperture.data() + slot);
                 conductance.store(net.conductance.data() + slot);
@@ -162,7 +156,7 @@ private:
         pack<Real, width> aperture, opening;
     };
     template <class Aperture>
-    [[gnu::always_inline]] opened open(std::size_t slot, Real const* place, Real const* pair_forces,
+    [[gnu::always_inline]] opened open(std::size_t slot, Real const* place, Real const* normal_forces,
                                        typename Aperture::parameters const& parameters) const noexcept {
         using lanes = pack<Real, width>;
         if constexpr (throat_section_law<Aperture>) {
@@ -175,10 +169,10 @@ private:
             lanes radius = max(facet.hydraulic_radius, lanes(Real(0)));
             return {radius, Aperture::opening(parameters, facet.void_area, radius)};
         } else {
-            lanes aperture = aperture_of_pair<Aperture>(0, slot, place, pair_forces, parameters);
+            lanes aperture = aperture_of_pair<Aperture>(0, slot, place, normal_forces, parameters);
             if constexpr (pairs > 1) {
                 for (std::size_t k = 1; k < pairs; ++k)
-                    aperture += aperture_of_pair<Aperture>(k, slot, place, pair_forces, parameters);
+                    aperture += aperture_of_pair<Aperture>(k, slot, place, normal_forces, parameters);
                 aperture *= lanes(Real(1) / Real(pairs));
             }
             return {aperture, aperture * aperture * aperture};
@@ -187,7 +181,7 @@ private:
     /// By the aperture law, from the gap and the normal force of the throat's pair number k.
     template <class Aperture>
     [[gnu::always_inline]] pack<Real, width> aperture_of_pair(std::size_t k, std::size_t slot, Real const* place,
-                                                              Real const* pair_forces,
+                                                              Real const* normal_forces,
                                                               typename Aperture::parameters const& p) const noexcept {
         using lanes = pack<Real, width>;
         using rec = record<Real>;
@@ -198,24 +192,24 @@ private:
             [&](int lane) { return rec::load(place + j[lane]) + rec::load(place + i[lane]) * difference_and_sum; });
         lanes squared = pair[0] * pair[0] + pair[1] * pair[1];
         if constexpr (Dim == 3) squared += pair[2] * pair[2];
-        lanes gap = sqrt(squared) - pair[3], zero(Real(0));
-        lanes normal = select(lanes::load(paired_[k].data() + slot) > zero,
-                              detail::gather<Real, width>(pair_forces, force_[k].data() + slot), zero);
+        lanes gap = sqrt(squared) - pair[3];
+        lanes normal = detail::gather<Real, width>(normal_forces, force_[k].data() + slot);
         return Aperture::aperture(p, normal, gap);
     }
 
+    /// Where the first pack with a throat to a reservoir begins.
+    std::size_t first_drained_slot() const noexcept { return interior_ / width * width; }
     auto drained(std::size_t slot) const noexcept {
         using lanes = pack<Real, width>;
-        return lanes::load(drained_.data() + slot) > lanes(Real(0));
+        return lanes::load(drained_.data() + (slot - first_drained_slot())) > lanes(Real(0));
     }
 
     std::size_t interior_ = 0, throats_ = 0;
     std::array<aligned_vector<std::uint32_t>, std::size_t(Dim)> particle_;
     std::array<aligned_vector<std::int32_t>, 2> pore_;
-    std::array<aligned_vector<std::uint32_t>, pairs> force_;
-    std::array<aligned_vector<Real>, pairs> paired_; // 1 or 0: there is such a pair
-    aligned_vector<Real> factor_;                    // k / l
-    aligned_vector<Real> drained_;                   // 1 or 0: to a reservoir and not skipped
+    std::array<aligned_vector<std::uint32_t>, pairs> force_; // places of normal forces
+    aligned_vector<Real> factor_;  // k / l
+    aligned_vector<Real> drained_; // 1 or 0: to a reservoir and not skipped; from first_drained_slot() on
     std::vector<std::int32_t> every_, active_;
 };
 

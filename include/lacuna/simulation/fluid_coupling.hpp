@@ -33,15 +33,15 @@ public:
             remesher_.start(remeshing, make, real(thickness), *flow_, store.positions(), radii, pairs);
             map_throats(pairs);
             // So that step limits are those of the gaps that there are.
-            flow_->refresh_apertures(store.bodies(), pairs.force_column());
+            flow_->refresh_apertures(store.bodies(), pairs.normal_forces());
         }
     }
 
-    /// To be called when the pairs' forces have moved in memory.
+    /// To be called when the pairs' normal forces have moved in memory.
     template <class Pairs>
     void map_throats(Pairs const& pairs) {
         if constexpr (has_fluid<Model>)
-            if (flow_) flow_->map_throats([&](std::int32_t i, std::int32_t j) { return pairs.find_force(i, j); });
+            if (flow_) flow_->map_throats([&](std::int32_t i, std::int32_t j) { return pairs.find_normal_force(i, j); });
     }
 
     /// Geometry, apertures, flow, pressures; then their forces, written to `out`, a record per particle. With an
@@ -54,7 +54,7 @@ public:
             if (flow_) {
                 int const interval = flow_->settings().interval;
                 real const flow_time = (number + 1) % interval == 0 ? dt * real(interval) : real(0);
-                flow_->template step<WithLedger>(store.bodies(), pairs.force_column(), flow_time, threads);
+                flow_->template step<WithLedger>(store.bodies(), pairs.normal_forces(), flow_time, threads);
                 flow_->write_tractions(out, threads);
             }
     }
@@ -67,7 +67,7 @@ public:
         if constexpr (has_fluid<Model>)
             if (flow_ && remesher_.remesh(*flow_, store.positions(), store.radii().data(), pairs, number)) {
                 map_throats(pairs);
-                flow_->refresh_apertures(store.bodies(), pairs.force_column());
+                flow_->refresh_apertures(store.bodies(), pairs.normal_forces());
                 return true;
             }
         return false;
@@ -78,7 +78,7 @@ public:
     void skip_idle_throats(store_type const& store, Pairs const& pairs, double duration) {
         if constexpr (has_fluid<Model>)
             if (flow_) {
-                flow_->refresh_apertures(store.bodies(), pairs.force_column());
+                flow_->refresh_apertures(store.bodies(), pairs.normal_forces());
                 flow_->skip_idle_throats(real(duration));
             }
     }
