@@ -34,6 +34,7 @@ std::string key_of(options const& o) {
     std::string key = "code " + std::string(code_version()) + "\nzone " + std::string(lacuna::to_string(o.zone));
     key += "\nseed " + std::to_string(o.seed);
     key += "\nlength_um " + lacuna::to_text(o.length_um) + "\nheight_um " + lacuna::to_text(o.height_um);
+    key += "\nstep_share " + lacuna::to_text(o.step_share);
     return key + (o.dry ? "\ndry\n" : "\nwet\n") + text_of(o.open, true);
 }
 

@@ -34,7 +34,8 @@ struct options {
     double length_um = 120;
     double height_um = 300;
     std::optional<double> duration_ns; ///< that of `open`; none: until quiet
-    std::optional<double> time_step_ps; ///< none: 0.4 of the rigorous bound
+    std::optional<double> time_step_ps; ///< none: a share of the rigorous bound
+    double step_share = 0.4;
     int threads = 1;
     bool dry = false;
     std::string out;

@@ -12,6 +12,7 @@
 #include <lacuna/observe/progress.hpp>
 
 #include "cache.hpp"
+#include "ending.hpp"
 #include "jobs.hpp"
 #include "probe.hpp"
 #include "simulate.hpp"
@@ -63,7 +64,8 @@ public:
         }
         probe p = run->ask(q);
         cache_.keep(name, key, json_of(p));
-        if (p.invalid || p.whole() || q >= question::complete) waiting_.erase(load_MPa);
+        bool const told_all = answers(p, question::capacity) && answers(p, question::complete);
+        if (p.invalid || p.whole() || told_all) waiting_.erase(load_MPa);
         return p;
     }
 
@@ -144,11 +146,14 @@ std::vector<packing_result> run_packings(std::vector<packing_request> const& req
         text.append(std::to_string(requests.size())).append(", runs ").append(std::to_string(report.runs));
         return text.append(2, ' ').append(medians(done));
     };
-    share_out(open.size(), how.jobs, [&](std::size_t k) {
+    share_out(open.size() + how.further.size(), how.jobs, [&](std::size_t k) {
+        if (k >= open.size()) return how.further[k - open.size()]();
         packing_request const& request = requests[open[k]];
         packing_runs runs(request.model, cache);
         long long own = 0;
-        packing_result result = find_thresholds(request.loads, [&](double load_MPa, question q) {
+        load_range loads = request.loads;
+        loads.longest_run = ending(request.model).longest();
+        packing_result result = find_thresholds(loads, [&](double load_MPa, question q) {
             std::size_t const before = runs.runs();
             probe p = runs.ask(load_MPa, q);
             std::lock_guard const lock(guard);

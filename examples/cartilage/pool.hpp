@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdio>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -33,6 +34,7 @@ struct pool_options {
     int jobs = 0;                 ///< runs at the same time; 0: as many as there are processors
     std::string cache;            ///< directory of kept results, created where needed; empty: nothing is kept
     std::FILE* progress = nullptr; ///< null: silent
+    std::vector<std::function<void()>> further{}; ///< other work, for threads that no packing is left for
     pool_report* report = nullptr; ///< null: nobody wants to know
 };
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "probe.hpp"
 
-#include <optional>
-
 #include "cartilage_model.hpp"
 #include "probe_watch.hpp"
 
@@ -18,8 +16,7 @@ public:
 
     probe ask(question q) override {
         probe const& result = watch_.result();
-        if (result.invalid || result.whole() || (asked_ && *asked_ >= q)) return result;
-        asked_ = q;
+        if (result.invalid || result.whole() || answers(result, q)) return result;
         // With the same last step in mind each time it is the same run, bit for bit, as one without a halt.
         return watch_.follow(q, *sim_, steps_ - sim_->steps());
     }
@@ -27,7 +24,6 @@ public:
 private:
     std::unique_ptr<lacuna::simulation<Model>> sim_;
     probe_watch watch_;
-    std::optional<question> asked_;
     long long steps_;
 };
 

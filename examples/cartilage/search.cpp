@@ -6,8 +6,10 @@
 #include <cstdio>
 #include <cstdlib>
 #include <map>
+#include <numbers>
 #include <set>
 #include <utility>
+#include <vector>
 
 #include <lacuna/core/error.hpp>
 
@@ -15,8 +17,9 @@ namespace cartilage {
 
 namespace {
 
-constexpr double first_stride = 1.16; // from the first guess, as a ratio of loads; doubled in places ever after
-constexpr int most_unknown = 6;       // runs that do not count, in a row
+// In the logarithm of the load: how far from it a load may well be.
+constexpr double spread_of_guess = 0.4, spread_by_damage = 0.25;
+constexpr int most_unknown = 6; // runs that do not count, in a row
 
 enum class answer { no, yes, unknown };
 
@@ -48,8 +51,9 @@ public:
         packing_result result;
         auto& found = result.found;
         int const first = find(question::first_crack, -1, found.first_crack_MPa, found.no_first_crack);
-        int const capacity = find(question::capacity, first - 1, found.capacity_MPa, found.no_capacity);
-        find(question::complete, capacity - 1, found.complete_MPa, found.no_complete);
+        // Fibres that are all cut once, and a first layer that is torn in half, come in any order.
+        find(question::capacity, first - 1, found.capacity_MPa, found.no_capacity);
+        find(question::complete, first - 1, found.complete_MPa, found.no_complete);
         for (auto& [place, what] : asked_) {
             if (what.counts) result.probes.push_back(std::move(*what.counts));
             result.probes.push_back(std::move(what.last));
@@ -78,22 +82,18 @@ private:
         return b;
     }
 
-    /// \param low a place below which the answer is no
+    /// \param low a place up to which the answer is no
     /// \return the place found, or the last one with the answer no and one more
     int find(question q, int low, std::optional<double>& load, std::string& none) {
         bracket b = known_bracket(q, low);
         std::set<int> unknown;
-        int stride = std::max(1, int(std::lround(std::log(first_stride) / std::log1p(range_.resolution)))), in_a_row = 0;
-        for (bool first = true; !b.is_closed() && in_a_row < most_unknown; first = false) {
-            int target;
-            if (first && b.high > top_)
-                target = range_.place(range_.first_guess[std::size_t(q)]);
-            else if (b.high > top_ || b.low < 0) {
-                target = b.high > top_ ? b.low + stride : b.high - stride;
-                stride *= 2;
-            } else
-                target = (b.low + b.high) / 2;
-            int const place = nearest_free(std::clamp(target, 0, top_), b, unknown);
+        for (int in_a_row = 0; !b.is_closed() && in_a_row < most_unknown;) {
+            // Away from runs that do not count, ever further, and below them every other time: less load is milder.
+            int const away = 1 << std::max(in_a_row - 1, 0);
+            int place = -1;
+            if (in_a_row % 2 == 1) place = most_telling(q, {b.low, *unknown.begin()}, unknown, away);
+            if (place < 0) place = most_telling(q, b, unknown, away);
+            if (place < 0) place = most_telling(q, b, unknown, 1);
             if (place < 0) break;
             switch (ask(place, q)) {
             case answer::yes: b.high = place, in_a_row = 0; break;
@@ -115,11 +115,66 @@ private:
         return b.low + 1;
     }
 
-    /// The place nearest to the target, inside the bracket and the range, at which a run might count; -1: none.
-    int nearest_free(int target, bracket const& b, std::set<int> const& unknown) const {
+    /// How likely the load is that of each place, up to a factor: near the guess, and near where damage in proportion to
+    /// the load would be enough, to judge by the nearest run that answers no. After the last place: above the range.
+    std::vector<double> beliefs(question q, bracket const& b) const {
+        double const guess = std::log(range_.first_guess[std::size_t(q)]);
+        double const step = (logarithm(top_) - logarithm(0)) / top_;
+        std::optional<double> by_damage;
+        if (auto const no = asked_.find(b.low); no != asked_.end())
+            if (double const share = share_of_damage(no->second.last, q); share > 0.05)
+                by_damage = logarithm(b.low) - std::log(share);
+        auto const hump = [](double x) { return 1 / (1 + x * x); };
+        std::vector<double> belief(std::size_t(top_) + 2);
+        for (int place = 0; place <= top_; ++place) {
+            double const at = logarithm(place);
+            belief[std::size_t(place)] = hump((at - guess) / spread_of_guess) *
+                                         (by_damage ? hump((at - *by_damage) / spread_by_damage) : 1.0);
+        }
+        // The rest of the hump, as if all of it were as likely by damage as its beginning.
+        double const rest = std::numbers::pi / 2 - std::atan((logarithm(top_) - guess) / spread_of_guess);
+        belief.back() = rest * spread_of_guess / step *
+                        (by_damage ? hump((logarithm(top_) - *by_damage) / spread_by_damage) : 1.0);
+        return belief;
+    }
+    double logarithm(int place) const {
+        return std::lerp(std::log(range_.lowest_MPa), std::log(range_.highest_MPa),
+                         double(std::min(place, top_)) / top_);
+    }
+
+    /// When a run would come to the answer yes, s: in inverse proportion to the load, from the nearest above of those
+    /// that did, else the nearest below; before the first one from where no run did, which takes longest.
+    double time_of_yes(question q, bracket const& b, int place) const {
+        double time = range_.longest_run, at = logarithm(std::max(b.low, 0));
+        for (auto const& [other, what] : asked_) {
+            auto const t = answer_time(what.last, q);
+            if (!t || what.last.invalid) continue;
+            time = *t, at = logarithm(other);
+            if (other >= place) break;
+        }
+        return std::min(time * std::exp(at - logarithm(place)), range_.longest_run);
+    }
+
+    /// The place inside the bracket and the range whose run is to tell most (in the entropy of its answer) for the time
+    /// it takes, of those at least so many places away from the unknown ones; -1: none.
+    int most_telling(question q, bracket const& b, std::set<int> const& unknown, int away) const {
+        std::vector<double> const belief = beliefs(q, b);
+        double all = 0, below = 0, most = -1;
+        for (int place = b.low + 1; place <= b.high; ++place) all += belief[std::size_t(place)];
         int best = -1;
-        for (int place = std::max(b.low + 1, 0); place < b.high && place <= top_; ++place)
-            if (!unknown.count(place) && (best < 0 || std::abs(place - target) < std::abs(best - target))) best = place;
+        for (int place = b.low + 1; place < b.high && place <= top_; ++place) {
+            below += belief[std::size_t(place)];
+            auto const next = unknown.lower_bound(place - away + 1);
+            if (next != unknown.end() && *next < place + away) continue;
+            double const yes = below / all, no = 1 - yes;
+            auto const before = asked_.find(place);
+            double const done = before == asked_.end() ? 0.0 : before->second.last.end_time;
+            double const least = range_.longest_run / 20; // and to begin a run costs, too
+            double const cost = yes * std::max(time_of_yes(q, b, place) - done, least) +
+                                no * std::max(range_.longest_run - done, least);
+            double const told = -(yes * std::log(yes) + no * std::log(no));
+            if (told > most * cost) most = told / cost, best = place;
+        }
         return best;
     }
 

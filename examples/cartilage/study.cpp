@@ -2,6 +2,7 @@
 #include "study.hpp"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cstdio>
 #include <fstream>
@@ -14,7 +15,6 @@
 #include <lacuna/observe/progress.hpp>
 
 #include "cache.hpp"
-#include "jobs.hpp"
 #include "output.hpp"
 #include "pool.hpp"
 #include "simulate.hpp"
@@ -46,6 +46,7 @@ std::optional<std::string> difference(study_result const& a, study_result const&
     if (a.choices != b.choices) return "choices";
     if (a.lowest_MPa != b.lowest_MPa || a.highest_MPa != b.highest_MPa) return "range of loads";
     if (a.resolution != b.resolution) return "resolution";
+    if (a.step_share != b.step_share) return "time step";
     if (a.dry != b.dry) return "fluid";
     if (a.length_um != b.length_um || a.height_um != b.height_um) return "size of the specimens";
     return std::nullopt;
@@ -68,16 +69,21 @@ study_result frame_of(study_options const& o) {
     s.resolution = o.loads.resolution;
     s.choices = text_of(o.model.open, true);
     s.code = code_version();
+    s.step_share = o.model.step_share;
     s.dry = o.model.dry;
     s.length_um = o.model.length_um;
     s.height_um = o.model.height_um;
     return s;
 }
 
-/// Near the first cracks of most packings of the preset `literal`, MPa.
-double first_crack_guess(lacuna::cartilage_zone zone) {
-    bool const straight_on_top = zone == lacuna::cartilage_zone::surface || zone == lacuna::cartilage_zone::whole;
-    return straight_on_top ? 35 : 170;
+/// Near the loads of most packings of the preset `literal`, MPa.
+std::array<double, 3> first_guess(lacuna::cartilage_zone zone) {
+    switch (zone) {
+    case lacuna::cartilage_zone::surface: return {25, 110, 200};
+    case lacuna::cartilage_zone::middle: return {170, 600, 1000};
+    case lacuna::cartilage_zone::deep: return {170, 1500, 500};
+    default: return {30, 110, 1000};
+    }
 }
 
 /// Whether an independent piece of work belongs to the part of the study that is asked for.
@@ -92,33 +98,24 @@ std::vector<paper_picture> pictures_of(study_options const& o) {
     return own;
 }
 
-std::vector<snapshot> take_snapshots(study_options const& o, pool_report& report) {
-    result_cache const cache(o.cache);
-    auto const pictures = pictures_of(o);
-    std::vector<snapshot> shots(pictures.size());
-    std::atomic<std::size_t> runs{0}, kept_runs{0};
-    share_out(pictures.size(), o.jobs, [&](std::size_t k) {
-        options model = o.model;
-        model.zone = pictures[k].zone;
-        model.seed = 1;
-        std::string const name = "figure-" + pictures[k].figure;
-        std::string const key = key_of(model) + "picture " + lacuna::to_text(pictures[k].load_MPa);
-        try {
-            if (auto const kept = cache.find(name, key)) {
-                shots[k] = snapshot_from(*kept);
-                ++kept_runs;
-                return;
-            }
-        } catch (std::exception const&) {
-            // Damaged: as if it were not there.
+/// \return whether it was kept from before
+bool find_snapshot(study_options const& o, result_cache const& cache, paper_picture const& picture, snapshot& shot) {
+    options model = o.model;
+    model.zone = picture.zone;
+    model.seed = 1;
+    std::string const name = "figure-" + picture.figure;
+    std::string const key = key_of(model) + "picture " + lacuna::to_text(picture.load_MPa);
+    try {
+        if (auto const kept = cache.find(name, key)) {
+            shot = snapshot_from(*kept);
+            return true;
         }
-        shots[k] = take_snapshot(pictures[k], model);
-        ++runs;
-        cache.keep(name, key, json_of(shots[k]));
-    });
-    report.runs += runs;
-    report.probes_kept += kept_runs;
-    return shots;
+    } catch (std::exception const&) {
+        // Damaged: as if it were not there.
+    }
+    shot = take_snapshot(picture, model);
+    cache.keep(name, key, json_of(shot));
+    return false;
 }
 
 std::string median_of(std::vector<packing_result> const& packings, lacuna::cartilage_zone zone,
@@ -202,7 +199,7 @@ std::vector<packing_request> requests_of(study_options const& o) {
                 packing_request r{o.model, o.loads};
                 r.model.zone = zone;
                 r.model.seed = seed;
-                r.loads.first_guess[0] = first_crack_guess(zone);
+                r.loads.first_guess = first_guess(zone);
                 requests.push_back(std::move(r));
             }
     return requests;
@@ -219,8 +216,15 @@ int study(study_options const& o) {
     how.cache = o.cache;
     how.progress = o.quiet ? nullptr : stderr;
     how.report = &report;
+    auto const pictures = pictures_of(o);
+    result_cache const cache(o.cache);
+    result.snapshots.resize(pictures.size());
+    std::atomic<std::size_t> kept{0};
+    for (std::size_t k = 0; k < pictures.size(); ++k)
+        how.further.emplace_back([&, k] { kept += find_snapshot(o, cache, pictures[k], result.snapshots[k]); });
     result.packings = run_packings(requests_of(o), how);
-    result.snapshots = take_snapshots(o, report);
+    report.runs += pictures.size() - kept;
+    report.probes_kept += kept;
     write_study(o, out, result, o.shards == 1);
     if (!o.quiet)
         std::printf("%zu runs; kept from before: %zu packings, %zu runs\n", report.runs, report.packings_kept,

@@ -239,7 +239,7 @@ std::string text_of(study_result const& study) {
     };
     return "{\n" + line("lowest_MPa", study.lowest_MPa) + line("highest_MPa", study.highest_MPa) +
            line("resolution", study.resolution) + line("choices", study.choices) + line("code", study.code) +
-           line("dry", study.dry) + line("length_um", study.length_um) + line("height_um", study.height_um) +
+           line("step_share", study.step_share) + line("dry", study.dry) + line("length_um", study.length_um) + line("height_um", study.height_um) +
            "\"packings\": " + lines_of(study.packings) + ",\n\"snapshots\": " + lines_of(study.snapshots) + "\n}\n";
 }
 
@@ -252,6 +252,7 @@ study_result study_from(std::string const& text) {
         j.at("resolution").get_to(study.resolution);
         j.at("choices").get_to(study.choices);
         j.at("code").get_to(study.code);
+        j.at("step_share").get_to(study.step_share);
         j.at("dry").get_to(study.dry);
         j.at("length_um").get_to(study.length_um);
         j.at("height_um").get_to(study.height_um);

@@ -83,7 +83,8 @@ std::string what_was_run(study_result const& study) {
                   " µm" + (study.dry ? ", without pore fluid" : ", with pore fluid") + ". Each load was sought from " +
                   lacuna::to_text(study.lowest_MPa) + " to " + lacuna::to_text(study.highest_MPa) +
                   " MPa on a logarithmic scale, to " + number_text("%.3g", 100 * study.resolution) +
-                  " %. A run stops once its answer is certain; the others ran whole.");
+                  " %. A run stops once its answer is certain; the others ran whole. The time step is " +
+                  number_text("%.3g", study.step_share) + " of the rigorous bound.");
     text += html_table("Packings and runs", {"zone", "packings", "seeds", "runs", "ran whole", "invalid"}, rows);
     if (bad == 0) {
         text += paragraph("No run is invalid.");

@@ -94,6 +94,7 @@ struct study_result {
     double lowest_MPa = 5, highest_MPa = 1000, resolution = 0.02;
     std::string choices; ///< the open choices that were used, as text "name = value", one a line
     std::string code;    ///< version of the code that ran
+    double step_share = 0.4; ///< time step over its rigorous bound
     bool dry = false;       ///< without pore fluid
     double length_um = 120; ///< of the specimens, horizontal
     double height_um = 300;

@@ -74,6 +74,14 @@ TEST_CASE("the load is its pressure times the chosen area, and rises as chosen")
     CHECK_THAT(-double(sim->particles().loads().at(std::size_t(k), 1)), WithinRel(share * full, 1e-9));
 }
 
+TEST_CASE("the time step is the share of the bound that is asked for") {
+    auto o = request();
+    auto const usual = run<dry_model>(o, 1);
+    CHECK_THAT(usual->time_step(), WithinRel(0.4 * usual->limits().critical(), 1e-6));
+    o.step_share = 0.8;
+    CHECK_THAT(run<dry_model>(o, 1)->time_step(), WithinRel(2 * usual->time_step(), 1e-12));
+}
+
 TEST_CASE("a platen moves as one, a free load does not") {
     for (bool const platen : {true, false}) {
         auto const o = request(platen ? "load = platen" : "");

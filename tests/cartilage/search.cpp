@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "catch.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cartilage/search.hpp"
@@ -14,30 +17,51 @@ using namespace cartilage;
 
 namespace {
 
+constexpr double longest = 40e-9;       // s, of a made-up run
+constexpr double latest = 0.99 * longest; // s, when one may still come to an answer
+
 /// A packing of which all is known: the loads from which on each question is answered yes, and loads at which no run
-/// counts. Counts what it is asked.
+/// counts. At those loads a run comes to the answer in its last moment, at higher ones in inverse proportion to the load.
+/// Counts what it is asked.
 struct made_up {
     double first, capacity, complete;
     double bad_from = 1e9, bad_to = 0;
-    std::map<double, question> asked{};
+    std::map<double, double> simulated{}; // time, s, by load
     int calls = 0;
+
+    static std::optional<double> time_of_yes(double from, double load) {
+        return load >= from ? std::optional(latest * from / load) : std::nullopt;
+    }
+    double time() const {
+        double sum = 0;
+        for (auto const& [load, t] : simulated) sum += t;
+        return sum;
+    }
 
     probe operator()(double load, question q) {
         ++calls;
-        auto const it = asked.find(load);
-        // A run is continued, never begun anew.
-        if (it != asked.end() && it->second >= q) throw std::logic_error("asked again");
-        asked[load] = q;
         probe p;
         p.load_MPa = load;
+        double& done = simulated[load];
+        std::optional<double> const times[] = {time_of_yes(first, load), time_of_yes(capacity, load),
+                                               time_of_yes(complete, load)};
+        double const until = times[int(q)].value_or(longest);
+        // A run is continued, never begun anew.
+        if (until <= done) throw std::logic_error("asked again");
+        p.end_time = done = until;
+        p.first_layer_fraction = std::min(1.0, 0.5 * load / capacity) * until / longest;
         if (load >= bad_from && load <= bad_to) {
             p.invalid = "made up";
             p.ended = "invalid";
             return p;
         }
-        if (load >= first) p.first_crack_time = 1e-9;
-        if (load >= capacity && q >= question::capacity) p.capacity_time = 2e-9;
-        if (load >= complete && q >= question::complete) p.complete_time = 3e-9;
+        auto const so_far = [&](question which) {
+            auto const& t = times[int(which)];
+            return t && *t <= until ? t : std::nullopt;
+        };
+        p.first_crack_time = so_far(question::first_crack);
+        p.capacity_time = so_far(question::capacity);
+        p.complete_time = so_far(question::complete);
         p.ended = answers(p, q) ? name_of(q) : "limit";
         return p;
     }
@@ -92,9 +116,43 @@ TEST_CASE("The search finds each load to one step, wherever it is and wherever i
                     CHECK(r.found.no_capacity == "above 1000 MPa");
                 }
                 CHECK(r.found.complete_MPa.has_value() == (packing.complete <= 1000));
-                // Nine halvings of 268 steps for each load, and the way to the first bracket.
-                CHECK(packing.calls <= 3 * 15);
             }
+}
+
+TEST_CASE("A good guess and a search that weighs the time of its runs save most of it") {
+    // Six runs at least, of each load the one that answers no and the one that answers yes at the very end. Halving the
+    // range instead takes eight for each load, and these between 0.2 and 1 of the longest time.
+    for (double const off : {0.8, 1.0, 1.25}) {
+        made_up packing{25, 110, 200};
+        load_range range;
+        range.first_guess = {25 * off, 110 * off, 200 * off};
+        search(packing, range);
+        CHECK(packing.time() > 6 * 0.97 * longest);
+        CHECK(packing.time() < 19 * longest);
+    }
+    // A load above the range takes no more than the one run at its end, which answers for both.
+    made_up strong{170, 1500, 1200};
+    load_range range;
+    range.first_guess = {170, 1500, 1500};
+    auto const r = search(strong, range);
+    CHECK(r.found.no_capacity == "above 1000 MPa");
+    CHECK(r.found.no_complete == "above 1000 MPa");
+    int above_first = 0;
+    for (probe const& p : r.probes) above_first += p.whole() && p.first_crack_time.has_value();
+    CHECK(above_first == 1);
+}
+
+TEST_CASE("Complete damage is found where it comes before the first layer's") {
+    for (double const capacity : {600.0, 2000.0}) {
+        made_up packing{170, capacity, 300};
+        auto const r = search(packing);
+        REQUIRE(r.found.complete_MPa);
+        CHECK(within_a_step(*r.found.first_crack_MPa, 170));
+        CHECK(within_a_step(*r.found.complete_MPa, 300));
+        CHECK(r.found.no_complete.empty());
+        CHECK(r.found.capacity_MPa.has_value() == (capacity < 1000));
+        if (r.found.capacity_MPa) CHECK(within_a_step(*r.found.capacity_MPa, 600));
+    }
 }
 
 TEST_CASE("Loads out of range are none, with the side on which they lie") {
@@ -135,7 +193,7 @@ TEST_CASE("Runs that do not count are passed by") {
     CHECK(invalid > 0);
 }
 
-TEST_CASE("The loads of a packing never stand in the wrong order, whatever the answers") {
+TEST_CASE("The first crack is never above the other loads, whatever the answers") {
     // Answers without any order at all, from the digits of the load.
     for (std::uint64_t salt = 1; salt < 200; ++salt) {
         std::map<double, probe> runs;
@@ -144,10 +202,11 @@ TEST_CASE("The loads of a packing never stand in the wrong order, whatever the a
             int const reached = int((noise >> 40) % 4);
             probe p;
             p.load_MPa = load;
-            if (reached > 0) p.first_crack_time = 1;
-            if (reached > 1) p.capacity_time = 2;
-            if (reached > 2) p.complete_time = 3;
+            if (reached > 0) p.first_crack_time = 1e-9;
+            if (reached > 1) p.capacity_time = 2e-9;
+            if (reached > 2) p.complete_time = 3e-9;
             p.ended = answers(p, q) ? name_of(q) : "limit";
+            p.end_time = answer_time(p, q).value_or(longest);
             if (!p.whole()) {
                 if (q < question::complete) p.complete_time.reset();
                 if (q < question::capacity) p.capacity_time.reset();
@@ -158,7 +217,21 @@ TEST_CASE("The loads of a packing never stand in the wrong order, whatever the a
         double const capacity = r.found.capacity_MPa.value_or(r.found.no_capacity[0] == 'b' ? 0 : 1e9);
         double const complete = r.found.complete_MPa.value_or(r.found.no_complete[0] == 'b' ? 0 : 1e9);
         CHECK(first <= capacity);
-        CHECK(capacity <= complete);
+        CHECK(first <= complete);
+        // Each is the upper end of two neighbours that answer no and yes.
+        auto const at = [&](double load) {
+            return std::find_if(r.probes.begin(), r.probes.end(), [&](probe const& p) { return p.load_MPa == load; });
+        };
+        for (auto const& [load, q] : {std::pair(r.found.first_crack_MPa, question::first_crack),
+                                      std::pair(r.found.capacity_MPa, question::capacity),
+                                      std::pair(r.found.complete_MPa, question::complete)}) {
+            if (!load) continue;
+            auto const yes = at(*load), no = at(load_range{}.load(load_range{}.place(*load) - 1));
+            REQUIRE(yes != r.probes.end());
+            REQUIRE(no != r.probes.end());
+            CHECK(answers(*yes, q));
+            CHECK((no->whole() && !answers(*no, q)));
+        }
         for (std::size_t k = 1; k < r.probes.size(); ++k) CHECK(r.probes[k - 1].load_MPa < r.probes[k].load_MPa);
     }
 }
@@ -168,6 +241,7 @@ TEST_CASE("A study as text is the same study, bit for bit") {
     s.choices = "a = 1\nb = \"x\"\n";
     s.code = "0123";
     s.dry = true;
+    s.step_share = 0.8;
     s.length_um = 0.1 + 0.2;
     packing_result r;
     r.zone = lacuna::cartilage_zone::deep;
@@ -207,6 +281,7 @@ TEST_CASE("A study as text is the same study, bit for bit") {
     CHECK(text_of(back) == text);
     REQUIRE(back.packings.size() == 1);
     CHECK(back.length_um == s.length_um);
+    CHECK(back.step_share == 0.8);
     CHECK(back.packings[0].seed == UINT64_MAX);
     CHECK(back.packings[0].found.first_crack_MPa == 1.0 / 3);
     CHECK(back.packings[0].probes[0].first_crack_time == p.first_crack_time);
