@@ -126,6 +126,7 @@ std::unique_ptr<lacuna::simulation<Model>> load_specimen(specimen const& s, opti
     auto parameters = model_parameters<Model>(s, o.open);
     parameters.threads = o.threads;
     parameters.safety = o.step_share;
+    parameters.keep_pair_forces = o.pair_forces;
     if (o.time_step_ps) parameters.time_step = *o.time_step_ps * 1e-12;
     auto sim = std::make_unique<lacuna::simulation<Model>>(s.discs, parameters);
     set_up(*sim, s, o.load_MPa * 1e6, o.open);

@@ -36,6 +36,7 @@ struct options {
     std::optional<double> duration_ns; ///< that of `open`; none: until quiet
     std::optional<double> time_step_ps; ///< none: a share of the rigorous bound
     double step_share = 0.4;
+    bool pair_forces = false; ///< the run's forces of single pairs will be asked for; no option
     int threads = 1;
     bool dry = false;
     std::string out;

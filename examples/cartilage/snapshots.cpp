@@ -118,7 +118,9 @@ private:
 
 template <class Model>
 void follow(specimen const& s, options const& o, snapshot& shot) {
-    auto const loaded = load_specimen<Model>(s, o);
+    options asked = o;
+    asked.pair_forces = true; // the stress front is made of them
+    auto const loaded = load_specimen<Model>(s, asked);
     lacuna::simulation<Model>& sim = *loaded;
     probe_watch watch(s, o);
     front_watch fronts(s, shot.fronts);

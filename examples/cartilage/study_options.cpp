@@ -45,7 +45,7 @@ std::vector<std::pair<std::string_view, std::string_view>> further_commands() {
 void add_pool_options(CLI::App& app, pool_words& w) {
     app.add_option("--zones", w.zones, "some of surface,middle,deep,whole (all)")->type_name("LIST");
     app.add_option("--seeds", w.seeds, "packings of each zone, seeds 1 to N (20; with --quick 3)")->type_name("N");
-    app.add_flag("--quick", w.quick, "few packings, loads to 25 % only, twice the time step");
+    app.add_flag("--quick", w.quick, "few packings, loads to 25 % only");
     app.add_option("--jobs", w.jobs, "runs at the same time; the results do not depend on it (all processors)")
         ->type_name("N");
     app.add_option("--cache", w.cache, "directory of kept runs, which studies may share (cache in the results')")
@@ -57,7 +57,8 @@ void understand_pool(pool_words const& w, study_options& o) {
     o.seeds = w.quick ? 3 : 20;
     if (!w.seeds.empty())
         o.seeds = whole_number<std::uint64_t>("--seeds", w.seeds, 1, 100000, "a whole number from 1 to 100000");
-    if (w.quick) o.loads.resolution = 0.25, o.model.step_share = 0.8;
+    if (w.quick) o.loads.resolution = 0.25;
+    o.model.step_share = 0.8;
     if (!w.jobs.empty()) o.jobs = whole_number<int>("--jobs", w.jobs, 1, 4096, "a whole number from 1 to 4096");
     o.cache = w.cache.empty() ? o.out + "/cache" : w.cache;
 }

@@ -20,6 +20,7 @@ options request(std::string const& set = {}, lacuna::cartilage_zone zone = lacun
     o.length_um = 84;
     o.height_um = 42;
     o.load_MPa = 30;
+    o.pair_forces = true;
     set_choices(o.open, set, "test");
     if (o.open.duration > 0) o.duration_ns = o.open.duration;
     return o;

@@ -43,8 +43,8 @@ struct simulation_parameters {
     bool allow_unstable_step = false;               ///< run even with a time step above the bound
     double start_time = 0;                          ///< s
     int threads = 1;                                ///< takes effect in programs built with OpenMP
-    /// Keep the forces of all pairs after a step, for pair_force(). Without, a run on one thread without walls and
-    /// fluid forgets each force once it has acted, which saves a third of the memory traffic of large models.
+    /// Keep the forces of all pairs after a step, for pair_force() and force(). Without, each force is forgotten once it
+    /// is summed up, which saves a third of the memory traffic of large models. The results are the same.
     bool keep_pair_forces = true;
 
     /// \throws std::invalid_argument naming the part, the field, the value and the rule.
