@@ -14,9 +14,13 @@ namespace lacuna {
 
 /// Makes a table of the candidates of a neighbour list without the bonded pairs, each with the history it had, or a
 /// new one.
-/// \param candidates, added sorted by (i, j)
-/// \param old the table until now; \param added pairs that were in no table of contacts, with a history
+/// \param candidates sorted by (i, j)
+/// \param bonds the table of bonds
+/// \param old the table until now
+/// \param added pairs that were in no table of contacts, with a history; sorted by (i, j)
 /// \param fresh replaced
+/// \param store of the particles
+/// \param threads how many may work on it
 /// \param make callable neighbor_pair -> entry, for pairs that were not known before
 template <class Bonds, class Contacts, class Real, int Dim, class Make>
 void merge_contacts(std::vector<neighbor_pair> const& candidates, Bonds const& bonds, Contacts const& old,

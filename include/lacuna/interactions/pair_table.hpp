@@ -51,7 +51,9 @@ public:
     }
 
     /// Makes room for `count(c)` pairs in each chunk c; their values are any until fill() has written them.
-    /// \param count called on up to `threads` threads
+    /// \param chunks of the particles
+    /// \param threads how many may call count
+    /// \param count callable chunk -> number of pairs
     template <class Count>
     void lay_out(int chunks, int threads, Count const& count) {
         chunk_begin_.assign(std::size_t(chunks) + 1, 0);
@@ -64,6 +66,8 @@ public:
         resize();
     }
     /// Writes the pairs of a chunk, as many as lay_out() was told. Chunks are independent of each other.
+    /// \param chunk which
+    /// \param store of the particles, with the ghosts
     /// \param write callable that calls push(entry) for each, sorted by (i, j)
     template <class Write>
     void fill(int chunk, particle_store<Real, Dim> const& store, Write const& write) {
@@ -164,7 +168,7 @@ private:
         state_.set(slot, e.state);
     }
     /// Fills up the last pack of a chunk, and looks which rows its packs have.
-    /// \param slot the first after the chunk's pairs \return the first after the chunk
+    /// \return the first slot after the chunk
     std::size_t close(int chunk, std::size_t slot, particle_store<Real, Dim> const& store) noexcept {
         Real const apart = store.ghost_distance();
         std::size_t const first = first_pack(chunk) * width;
