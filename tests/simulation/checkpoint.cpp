@@ -246,7 +246,7 @@ TEST_CASE("a checkpoint that is not sound is refused, and nothing changes", "[ch
     }
     SECTION("from a newer version, or another machine") {
         std::string spoilt = sound;
-        spoilt[12] = char(detail::checkpoint_format + 1);
+        spoilt[12] = char(lacuna::detail::checkpoint_format + 1);
         REQUIRE_THAT(attempt(spoilt), contains_text("newer version"));
         spoilt = sound;
         spoilt[20] = char(LACUNA_VERSION_MINOR + 1);
