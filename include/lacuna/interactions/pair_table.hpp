@@ -10,8 +10,6 @@
 #include <lacuna/core/fields.hpp>
 #include <lacuna/core/parallel.hpp>
 #include <lacuna/core/records.hpp>
-#include <lacuna/neighbors/search.hpp>
-#include <lacuna/particles/store.hpp>
 
 namespace lacuna {
 
@@ -39,8 +37,9 @@ public:
 
     /// Replaces all pairs. No allocation once the table was as large before.
     /// \param entries sorted by (i, j)
-    /// \param store of the particles, with the ghosts
-    void assign(std::span<entry const> entries, particle_store<Real, Dim> const& store) {
+    /// \param store particle_store of the particles, with the ghosts
+    template <class Store>
+    void assign(std::span<entry const> entries, Store const& store) {
         int const chunks = chunks_of(store.size());
         auto const first = [&](int c) { return first_of_chunk(entries, c); };
         lay_out(chunks, 1, [&](int c) { return std::size_t(first(c + 1) - first(c)); });
@@ -69,16 +68,16 @@ public:
     /// \param chunk which
     /// \param store of the particles, with the ghosts
     /// \param write callable that calls push(entry) for each, sorted by (i, j)
-    template <class Write>
-    void fill(int chunk, particle_store<Real, Dim> const& store, Write const& write) {
+    template <class Store, class Write>
+    void fill(int chunk, Store const& store, Write const& write) {
         std::size_t slot = first_pack(chunk) * width;
         write([&](entry const& e) { put(slot++, e); });
         close(chunk, slot, store);
     }
 
     /// Leaves out the pairs for which keep(slot) is false.
-    template <class Keep>
-    void filter(particle_store<Real, Dim> const& store, Keep const& keep) {
+    template <class Store, class Keep>
+    void filter(Store const& store, Keep const& keep) {
         // Towards the front, within the table itself: a pair never moves beyond where it was.
         std::size_t slot = 0, old_first = 0;
         count_ = 0;
@@ -117,8 +116,12 @@ public:
     /// First slot of a chunk; of one beyond the last, slots().
     std::size_t first_slot(int chunk) const noexcept { return chunk_begin_[std::size_t(std::min(chunk, chunks()))] * width; }
     /// Whether a slot holds the given pair, or one before it.
-    bool is(std::size_t slot, neighbor_pair const& pair) const noexcept { return i(slot) == pair.i && j(slot) == pair.j; }
-    bool before(std::size_t slot, neighbor_pair const& pair) const noexcept {
+    template <class Pair>
+    bool is(std::size_t slot, Pair const& pair) const noexcept {
+        return i(slot) == pair.i && j(slot) == pair.j;
+    }
+    template <class Pair>
+    bool before(std::size_t slot, Pair const& pair) const noexcept {
         return i(slot) < pair.i || (i(slot) == pair.i && j(slot) < pair.j);
     }
 
@@ -138,15 +141,18 @@ public:
     std::int32_t find(std::int32_t i, std::int32_t j) const noexcept {
         int const chunk = int(i / chunk_particles);
         if (i < 0 || chunk >= chunks()) return -1;
+        struct {
+            std::int32_t i, j;
+        } const wanted{i, j};
         std::size_t low = first_pack(chunk) * width, high = end_pack(chunk) * width;
         while (low < high) {
             std::size_t const middle = (low + high) / 2;
-            if (before(middle, {i, j}))
+            if (before(middle, wanted))
                 low = middle + 1;
             else
                 high = middle;
         }
-        return low < i_.size() && is(low, {i, j}) ? std::int32_t(low) : -1;
+        return low < i_.size() && is(low, wanted) ? std::int32_t(low) : -1;
     }
     entry get(std::size_t slot) const noexcept {
         return {i(slot), j(slot), parameter_[slot], label_[slot], state_.get(slot)};
@@ -169,7 +175,8 @@ private:
     }
     /// Fills up the last pack of a chunk, and looks which rows its packs have.
     /// \return the first slot after the chunk
-    std::size_t close(int chunk, std::size_t slot, particle_store<Real, Dim> const& store) noexcept {
+    template <class Store>
+    std::size_t close(int chunk, std::size_t slot, Store const& store) noexcept {
         Real const apart = store.ghost_distance();
         std::size_t const first = first_pack(chunk) * width;
         // In their pack's row, so that it has one.
