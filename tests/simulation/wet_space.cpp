@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdio>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include <lacuna/laws/no_contact.hpp>
@@ -108,7 +109,8 @@ TEMPLATE_TEST_CASE("a wet cluster of spheres that is torn: ledger, momenta, mass
     int const steps = 200;
     double missing = 0, gross = 0;
     struct scratch_file {
-        std::string path = "wet_space_checkpoint.bin";
+        // Both models' tests may run at the same time.
+        std::string path = "wet_space_" + std::to_string(std::is_same_v<TestType, wet_implicit>) + ".bin";
         ~scratch_file() { std::remove(path.c_str()); }
     } const file;
     for (int s = 0; s < steps; ++s) {
