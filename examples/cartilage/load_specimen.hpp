@@ -127,7 +127,10 @@ std::unique_ptr<lacuna::simulation<Model>> load_specimen(specimen const& s, opti
     parameters.threads = o.threads;
     parameters.safety = o.step_share;
     parameters.keep_pair_forces = o.pair_forces;
-    if (o.time_step_ps) parameters.time_step = *o.time_step_ps * 1e-12;
+    if (o.time_step_ps) {
+        parameters.time_step = *o.time_step_ps * 1e-12;
+        parameters.allow_unstable_step = true; // the paper's own is
+    }
     auto sim = std::make_unique<lacuna::simulation<Model>>(s.discs, parameters);
     set_up(*sim, s, o.load_MPa * 1e6, o.open);
     return sim;

@@ -81,6 +81,11 @@ TEST_CASE("the time step is the share of the bound that is asked for") {
     CHECK_THAT(usual->time_step(), WithinRel(0.4 * usual->limits().critical(), 1e-6));
     o.step_share = 0.8;
     CHECK_THAT(run<dry_model>(o, 1)->time_step(), WithinRel(2 * usual->time_step(), 1e-12));
+    // One that is asked for is taken, stable or not.
+    o.time_step_ps = 14.39;
+    auto const asked = load_specimen<dry_model>(build_specimen(o), o);
+    CHECK_THAT(asked->time_step(), WithinRel(14.39e-12, 1e-12));
+    CHECK(asked->time_step() > asked->limits().critical());
 }
 
 TEST_CASE("a platen moves as one, a free load does not") {
