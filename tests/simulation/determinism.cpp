@@ -13,16 +13,16 @@ struct plane_in_single : lacuna::default_model<2, float> {};
 
 double noise(std::size_t k, int salt) { return std::sin(12.9898 * double(k) + 78.233 * salt); }
 
-/// A sheet of 24 x 24 discs of mixed radii, half of its pairs bonded, that is torn, sheared and thrown at a wall.
+/// A square sheet, of 24 x 24 discs if nothing else is asked for, of mixed radii, half of its pairs bonded, that is torn, sheared and thrown at a wall.
 template <class Real>
-lacuna::packing<Real, 2> sheet() {
+lacuna::packing<Real, 2> sheet(int side = 24) {
     lacuna::packing<Real, 2> p;
-    for (int r = 0; r < 24; ++r)
-        for (int c = 0; c < 24; ++c) {
+    for (int r = 0; r < side; ++r)
+        for (int c = 0; c < side; ++c) {
             auto const k = p.size();
             p.add({Real(c + 0.02 * noise(k, 1)), Real(r + 0.02 * noise(k, 2))}, Real(0.49 + 0.02 * noise(k, 3)));
             if (c > 0 && noise(k, 4) > 0) p.bonds.push_back({std::int32_t(k) - 1, std::int32_t(k)});
-            if (r > 0 && noise(k, 5) > 0) p.bonds.push_back({std::int32_t(k) - 24, std::int32_t(k)});
+            if (r > 0 && noise(k, 5) > 0) p.bonds.push_back({std::int32_t(k) - side, std::int32_t(k)});
         }
     return p;
 }
@@ -31,6 +31,8 @@ struct outcome {
     std::vector<lacuna::vec<double, 2>> position, velocity;
     std::vector<double> spin;
     std::vector<lacuna::break_event<2>> events;
+    bool streams = false; ///< forces were forgotten as soon as they were summed up
+    int spans = 0;
 };
 
 template <class Model>
@@ -53,6 +55,8 @@ outcome play(lacuna::packing<typename Model::real, 2> const& packing, int thread
         run.step();
         o.events.insert(o.events.end(), run.events().begin(), run.events().end());
     }
+    o.streams = run.pairs().streams();
+    o.spans = run.pairs().spans().count();
     for (std::size_t k = 0; k < run.size(); ++k) {
         o.position.push_back(run.position(k));
         o.velocity.push_back(run.velocity(k));
@@ -93,10 +97,18 @@ TEST_CASE("the same bits with any number of threads", "[determinism]") {
 }
 
 TEST_CASE("the same bits whether pair forces are kept or not", "[determinism]") {
+    // Without a wall particles move as soon as their forces are summed up, with one the sums wait for it. The large sheet
+    // is cut into a span for each of two threads, with a frontier between.
     auto const itself = [](std::size_t k) { return k; };
-    auto const kept = play<plane>(sheet<double>(), 1, false, itself, true);
-    auto const forgotten = play<plane>(sheet<double>(), 1, false, itself, false);
+    auto const [side, threads] = GENERATE(table<int, int>({{24, 1}, {80, 1}, {80, 2}}));
+    bool const wall = GENERATE(false, true);
+    CAPTURE(side, threads, wall);
+    auto const kept = play<plane>(sheet<double>(side), 1, wall, itself, true);
+    auto const forgotten = play<plane>(sheet<double>(side), threads, wall, itself, false);
     REQUIRE(kept.events.size() > 20);
+    REQUIRE(!kept.streams);
+    REQUIRE(forgotten.streams);
+    REQUIRE(forgotten.spans == threads);
     REQUIRE(forgotten.position == kept.position);
     REQUIRE(forgotten.velocity == kept.velocity);
     REQUIRE(forgotten.spin == kept.spin);

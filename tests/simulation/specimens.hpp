@@ -32,9 +32,11 @@ lacuna::simulation_parameters<Model> parameters(lacuna::cartilage_specimen<doubl
 /// A run that, under 1000 MPa, breaks bonds and, with a skin as thin as this, seeks its candidates anew within a few
 /// hundred steps; its throats let so much through that none is idle.
 template <class Model = wet>
-lacuna::simulation<Model> make(lacuna::cartilage_specimen<double> const& s, int threads = 1, double load_MPa = 1000) {
+lacuna::simulation<Model> make(lacuna::cartilage_specimen<double> const& s, int threads = 1, double load_MPa = 1000,
+                               bool keep_pair_forces = true) {
     auto p = parameters<Model>(s);
     p.threads = threads;
+    p.keep_pair_forces = keep_pair_forces;
     p.interactions.skin = 0.02;
     p.flow.conductivity = 1e-4;
     p.flow.aperture.gap_factor = 0.1;
