@@ -20,6 +20,7 @@ namespace {
 // In the logarithm of the load: how far from it a load may well be.
 constexpr double spread_of_guess = 0.4, spread_by_damage = 0.25;
 constexpr int most_unknown = 6; // runs that do not count, in a row
+constexpr int patience = 8;     // runs for one question
 
 enum class answer { no, yes, unknown };
 
@@ -87,11 +88,14 @@ private:
     int find(question q, int low, std::optional<double>& load, std::string& none) {
         bracket b = known_bracket(q, low);
         std::set<int> unknown;
-        for (int in_a_row = 0; !b.is_closed() && in_a_row < most_unknown;) {
+        int asked = 0;
+        for (int in_a_row = 0; !b.is_closed() && in_a_row < most_unknown; ++asked) {
             // Away from runs that do not count, ever further, and below them every other time: less load is milder.
             int const away = 1 << std::max(in_a_row - 1, 0);
             int place = -1;
             if (in_a_row % 2 == 1) place = most_telling(q, {b.low, *unknown.begin()}, unknown, away);
+            // A guess that has not led there by now is a bad one: halving does not need it.
+            if (asked >= patience && !unknown.count((b.low + b.high) / 2)) place = (b.low + b.high) / 2;
             if (place < 0) place = most_telling(q, b, unknown, away);
             if (place < 0) place = most_telling(q, b, unknown, 1);
             if (place < 0) break;

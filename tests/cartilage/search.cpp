@@ -116,6 +116,8 @@ TEST_CASE("The search finds each load to one step, wherever it is and wherever i
                     CHECK(r.found.no_capacity == "above 1000 MPa");
                 }
                 CHECK(r.found.complete_MPa.has_value() == (packing.complete <= 1000));
+                // Nine halvings of 268 steps for each load, and the way to the first bracket.
+                CHECK(packing.calls <= 3 * 15);
             }
 }
 
