@@ -180,10 +180,11 @@ elseif(CASE STREQUAL "interrupted")
     return()
   endif()
   foreach(signal IN ITEMS INT TERM)
-    # A slow machine may still be packing when the signal comes: then later again.
+    # In the foreground, or the signal comes twice, and the second ends the program at once. A slow machine may still be
+    # packing when it comes: then later again.
     foreach(seconds IN ITEMS 4 20 100)
       execute_process(
-        COMMAND "${timeout}" --preserve-status -s ${signal} ${seconds} "${PROGRAM}" run --zone surface --load 5 ${small}
+        COMMAND "${timeout}" --foreground --preserve-status -s ${signal} ${seconds} "${PROGRAM}" run --zone surface --load 5 ${small}
           --duration 1000000 --out ${signal}
         WORKING_DIRECTORY "${SCRATCH}" RESULT_VARIABLE result OUTPUT_VARIABLE out ERROR_VARIABLE err)
       if(EXISTS "${SCRATCH}/${signal}/summary.json")
