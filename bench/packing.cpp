@@ -8,8 +8,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <exception>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -17,6 +15,7 @@
 #include <lacuna/particles/random_packing.hpp>
 
 #include "machine.hpp"
+#include "options.hpp"
 
 namespace {
 
@@ -44,8 +43,7 @@ outcome time_packing(std::string name, int rounds, double area, double fraction,
         found.area_fraction = std::min(found.area_fraction, measured.area_fraction);
         found.max_overlap = std::max(found.max_overlap, measured.max_overlap);
     }
-    std::sort(seconds.begin(), seconds.end());
-    found.seconds = (seconds[(seconds.size() - 1) / 2] + seconds[seconds.size() / 2]) / 2;
+    found.seconds = bench::median(seconds);
     found.good = found.area_fraction >= fraction && found.max_overlap <= overlap * (1 + 1e-9);
     return found;
 }
@@ -55,18 +53,7 @@ outcome time_packing(std::string name, int rounds, double area, double fraction,
 int main(int count, char** arguments) {
     int rounds = 3;
     bool json = false;
-    try {
-        for (int k = 1; k < count; ++k) {
-            std::string const name = arguments[k];
-            if (name == "--json")
-                json = true;
-            else if (name == "--rounds" && k + 1 < count)
-                rounds = std::stoi(arguments[++k]);
-            else
-                throw std::invalid_argument(name);
-        }
-        if (rounds < 1 || rounds > 1000) throw std::invalid_argument("--rounds");
-    } catch (std::exception const&) {
+    if (!bench::read_options(count, arguments, {{"--rounds", &rounds}}, json)) {
         std::fprintf(stderr, "usage: bench_packing [--rounds N] [--json]\n");
         return 2;
     }

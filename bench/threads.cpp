@@ -13,11 +13,11 @@
 #include <cstdio>
 #include <cstring>
 #include <memory>
-#include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include "options.hpp"
 #include "works.hpp"
 
 namespace {
@@ -34,11 +34,6 @@ std::uint64_t fingerprint(lacuna::simulation<model> const& sim) {
         for (double const value : {x[0], x[1], v[0], v[1], sim.spin(k)[0]}) take(value);
     }
     return hash;
-}
-
-double median(std::vector<double> list) {
-    std::sort(list.begin(), list.end());
-    return (list[(list.size() - 1) / 2] + list[list.size() / 2]) / 2;
 }
 
 /// One set of runs side by side, each on `threads` threads: particle-steps a second of all, and one fingerprint each.
@@ -78,8 +73,8 @@ comparison compare(std::string name, bench::work w, std::size_t particles, int r
         several.push_back(b.rate);
         for (auto const bits : b.bits) c.same_bits = c.same_bits && bits == a.bits[0];
     }
-    c.one = median(one);
-    c.several = median(several);
+    c.one = bench::median(one);
+    c.several = bench::median(several);
     return c;
 }
 
@@ -88,20 +83,7 @@ comparison compare(std::string name, bench::work w, std::size_t particles, int r
 int main(int count, char** arguments) {
     int threads = std::max(2, int(std::thread::hardware_concurrency())), rounds = 5;
     bool json = false;
-    try {
-        for (int k = 1; k < count; ++k) {
-            std::string const name = arguments[k];
-            if (name == "--json")
-                json = true;
-            else if (name == "--threads" && k + 1 < count)
-                threads = std::stoi(arguments[++k]);
-            else if (name == "--rounds" && k + 1 < count)
-                rounds = std::stoi(arguments[++k]);
-            else
-                throw std::invalid_argument(name);
-        }
-        if (threads < 1 || threads > 1024 || rounds < 1) throw std::invalid_argument("out of range");
-    } catch (std::exception const&) {
+    if (!bench::read_options(count, arguments, {{"--threads", &threads}, {"--rounds", &rounds}}, json)) {
         std::fprintf(stderr, "usage: bench_threads [--threads N] [--rounds N] [--json]\n");
         return 2;
     }
