@@ -273,18 +273,4 @@ void set_choices(choices& c, std::string_view text, std::string const& origin) {
     c = changed;
 }
 
-std::vector<std::string_view> preset_names() { return {"literal", "lattice"}; }
-
-choices preset_choices(std::string_view name) {
-    choices c;
-    if (name == "literal") return c;
-    if (name == "lattice") {
-        c.packing = packing_rule::lattice;
-        return c;
-    }
-    std::string rule;
-    for (auto known : preset_names()) rule += (rule.empty() ? "" : " or ") + std::string(known);
-    lacuna::refuse("preset", name, rule);
-}
-
 } // namespace cartilage

@@ -9,7 +9,7 @@
 #include <vector>
 
 /// \file
-/// What the paper leaves open, as one set of values for all zones: the table of choices, their text form, presets.
+/// What the paper leaves open, as one set of values for all zones: the table of choices and their text form.
 ///
 /// How the rest of the program uses it:
 ///   * `options` has a member `choices open`, filled by parse_command_line() from --preset, --choices FILE and --set
@@ -122,10 +122,5 @@ void set_choice(choices& c, std::string_view assignment);
 /// Sets choices from text as text_of() writes it: one "name = value" a line; empty lines and what follows # count
 /// for nothing. \param origin of the text, for messages. \throws std::invalid_argument
 void set_choices(choices& c, std::string_view text, std::string const& origin);
-
-/// The presets: `literal` (the paper by its words), `lattice` (equal radii on lattices, without chance).
-std::vector<std::string_view> preset_names();
-/// \throws std::invalid_argument when there is none of that name
-choices preset_choices(std::string_view name);
 
 } // namespace cartilage

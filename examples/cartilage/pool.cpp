@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pool.hpp"
 
-#include <algorithm>
+#include <cmath>
+#include <cstdio>
 #include <exception>
+#include <limits>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -16,6 +18,7 @@
 #include "jobs.hpp"
 #include "probe.hpp"
 #include "simulate.hpp"
+#include "study_statistics.hpp"
 
 namespace cartilage {
 
@@ -103,13 +106,14 @@ std::string medians(std::vector<std::optional<packing_result>> const& done) {
 
 } // namespace
 
-std::string median_text(std::vector<std::optional<double>> loads) {
+std::string median_text(std::vector<std::optional<double>> const& loads) {
     if (loads.empty()) return "?";
-    std::sort(loads.begin(), loads.end(), [](auto const& a, auto const& b) { return a && (!b || *a < *b); });
-    auto const& middle = loads[(loads.size() - 1) / 2];
-    if (!middle) return "-";
+    std::vector<double> numbers;
+    for (auto const& load : loads) numbers.push_back(load.value_or(std::numeric_limits<double>::infinity()));
+    double const middle = median(std::move(numbers));
+    if (!std::isfinite(middle)) return "-";
     char digits[32];
-    std::snprintf(digits, sizeof digits, "%.0f", *middle);
+    std::snprintf(digits, sizeof digits, "%.0f", middle);
     return digits;
 }
 

@@ -44,6 +44,6 @@ struct pool_options {
 std::vector<packing_result> run_packings(std::vector<packing_request> const& requests, pool_options const& how);
 
 /// Median of loads in MPa for a person's eyes, where none is above all others: "-" when it is none, "?" of nothing.
-std::string median_text(std::vector<std::optional<double>> loads);
+std::string median_text(std::vector<std::optional<double>> const& loads);
 
 } // namespace cartilage

@@ -123,7 +123,7 @@ std::string median_of(std::vector<packing_result> const& packings, lacuna::carti
     std::vector<std::optional<double>> loads;
     for (auto const& p : packings)
         if (p.zone == zone) loads.push_back(p.found.*load);
-    return median_text(std::move(loads));
+    return median_text(loads);
 }
 
 void print_study(std::FILE* out, study_result const& study) {

@@ -12,6 +12,8 @@
 
 #include <lacuna/core/error.hpp>
 
+#include "presets.hpp"
+
 namespace cartilage {
 
 namespace {

@@ -9,6 +9,7 @@
 
 #include "cartilage/calibration.hpp"
 #include "cartilage/comparison.hpp"
+#include "cartilage/presets.hpp"
 
 using namespace cartilage;
 
