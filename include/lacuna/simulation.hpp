@@ -504,7 +504,8 @@ private:
         if (walls_.empty()) return;
         double mean = 0;
         for (real const r : store_.radii()) mean += double(r) / double(store_.size());
-        walls_.update(store_, real(parameters_.interactions.skin * mean));
+        walls_.update(store_, real(parameters_.interactions.skin * mean),
+                      real(parameters_.interactions.initial_contact_tolerance));
     }
 
     /// Fixes the time step on first use: the one asked for, if it is stable, or a share of the critical one.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -70,6 +71,32 @@ TEST_CASE("a body on a belt slips, and rolls with a third of its speed", "[walls
     CHECK_THAT(sim.energy().prescribed, WithinRel(belt * belt / 3, 0.02));
     CHECK_THAT(sim.energy().friction, WithinRel(belt * belt / 6, 5e-3));
     CHECK(std::fabs(sim.energy().residual()) < 1e-3 * sim.energy().largest());
+}
+
+TEST_CASE("a body that overlaps a wall at first is at rest there, and touches it at its radius later", "[walls]") {
+    double const overlap = 0.005, kn = 1e4, speed = 0.2, depth = speed / std::sqrt(kn); // m v^2 = k depth^2
+    above_a_wall<plane> s(-overlap);
+    s.p.interactions.initial_contact_tolerance = 0.02; // of the radius of 0.5: 0.01
+    lacuna::simulation<plane> sim(s.body, s.p);
+    sim.run(100);
+    CHECK(sim.position(0) == lacuna::vec<double, 2>{});
+    CHECK(sim.walls().force(0)[1] == 0);
+    for (double const touching : {0.0, overlap}) {
+        sim.set_velocity(0, along_y(-speed));
+        double deepest = 1;
+        while (sim.velocity(0)[1] < 0 || sim.position(0)[1] < 2 * overlap) {
+            sim.run(1);
+            deepest = std::min(deepest, sim.position(0)[1]);
+        }
+        CHECK_THAT(deepest, WithinAbs(touching - depth, 1e-3 * depth));
+        CHECK_THAT(sim.velocity(0)[1], WithinRel(speed, 1e-3));
+    }
+
+    above_a_wall<plane> deep(-3 * overlap); // beyond the tolerance: the overlap is a force
+    deep.p.interactions.initial_contact_tolerance = 0.02;
+    lacuna::simulation<plane> thrown(deep.body, deep.p);
+    thrown.run(1);
+    CHECK_THAT(thrown.walls().force(0)[1], WithinRel(-kn * 3 * overlap, 1e-9));
 }
 
 TEST_CASE("a wall's ramp is linear in its velocity", "[walls]") {

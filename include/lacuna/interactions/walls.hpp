@@ -60,7 +60,10 @@ public:
     }
 
     /// Lists the particles that may touch a wall before they have moved by `reach`, keeping known histories.
-    void update(particle_store<Real, Dim> const& store, Real reach) {
+    /// \param tolerance of the first list: those whose gap or overlap is below this fraction of their radius start as
+    ///        touching at zero force, at the distance they have (MODEL.md section 3)
+    void update(particle_store<Real, Dim> const& store, Real reach, Real tolerance = 0) {
+        bool const first = reach_ < 0;
         reach_ = reach;
         path_ = 0;
         std::vector<near_wall> fresh;
@@ -68,12 +71,15 @@ public:
         for (std::size_t w = 0; w < walls_.size(); ++w)
             for (std::size_t k = 0; k < store.size(); ++k) {
                 Real const r = store.radius(k);
-                bool const close = height(store.position(k), w) <= r + reach;
+                Real const distance = height(store.position(k), w);
+                bool const close = distance <= r + reach;
                 while (old < near_.size() &&
                        (near_[old].plane < w || (near_[old].plane == w && near_[old].particle < k)))
                     ++old;
                 bool const known = old < near_.size() && near_[old].plane == w && near_[old].particle == k;
-                if (close) fresh.push_back(known ? near_[old] : near_wall{w, k, ContactLaw::template initial<Real, Dim>(r, r)});
+                if (!close) continue;
+                bool const touches = first && std::abs(distance - r) <= tolerance * r;
+                fresh.push_back(known ? near_[old] : near_wall{w, k, ContactLaw::template initial<Real, Dim>(touches ? distance : r, r)});
             }
         near_ = std::move(fresh);
     }
@@ -264,7 +270,8 @@ private:
     std::vector<wall_motion> motion_;
     std::vector<vec<double, Dim>> force_;
     std::vector<double> stiffness_;
-    Real reach_ = 0, path_ = 0; ///< path_: of the fastest particle and the fastest wall, since update()
+    Real reach_ = -1; ///< of the list; negative: none was made yet
+    Real path_ = 0;   ///< of the fastest particle and the fastest wall, since update()
 };
 
 } // namespace lacuna
