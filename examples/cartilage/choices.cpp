@@ -120,7 +120,7 @@ std::vector<choice_field> make_fields() {
                                     "A_c of the failure criterion is not given."));
     f.push_back(number<&c::bond_moment>(
         "bond_moment", "of a parallel bond's",
-        {0, 10, "a number from 0 (none) to 10", scale::linear, {0.25, 1}, {0, 3}},
+        {0, 10, "a number from 0 (none) to 10", scale::linear, {0.25, 1}, {0, 10}},
         "The connective model has no moment, yet a fibre without bending stiffness is a chain of hinges."));
     f.push_back(number<&c::fibre_links>("fibre_links", "of the fibres' strength",
                                         {0, 10, "a number from 0 (none) to 10", scale::linear, {0.5, 1}, {0, 3}},
