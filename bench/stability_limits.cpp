@@ -33,6 +33,7 @@ namespace {
 double const infinite = std::numeric_limits<double>::infinity();
 
 struct dry : lacuna::default_model<2> {};
+struct dry_in_space : lacuna::default_model<3> {};
 struct dashpots : lacuna::default_model<2> {
     using damping = lacuna::viscous_damping;
 };
@@ -78,6 +79,7 @@ double bisect(double guess, Stable const& stable) {
 /// Lattices ---------------------------------------------------------------------------------------------------------
 
 using packing = lacuna::packing<double, 2>;
+using block = lacuna::packing<double, 3>;
 
 /// Rows of touching discs of diameter 1, neighbours bonded; `shift` of every second row: 0 square, 0.5 triangular.
 packing lattice(int columns, int rows, double shift) {
@@ -101,6 +103,35 @@ packing lattice(int columns, int rows, double shift) {
     return p;
 }
 
+/// A cube of touching spheres of diameter 1, neighbours bonded: simple cubic or face-centred cubic.
+/// \param sites of the cubic grid on which they lie, along each axis; a face-centred lattice has every second one
+block cube(int sites, bool face_centred) {
+    block p;
+    double const spacing = face_centred ? std::sqrt(0.5) : 1;
+    std::vector<int> number(std::size_t(sites * sites * sites), -1);
+    auto const at = [&](int x, int y, int z) -> int& { return number[std::size_t((x * sites + y) * sites + z)]; };
+    auto const each = [&](auto const& visit) {
+        for (int x = 0; x < sites; ++x)
+            for (int y = 0; y < sites; ++y)
+                for (int z = 0; z < sites; ++z)
+                    if (!face_centred || (x + y + z) % 2 == 0) visit(x, y, z);
+    };
+    each([&](int x, int y, int z) {
+        at(x, y, z) = int(p.size());
+        p.add({x * spacing, y * spacing, z * spacing}, 0.5);
+    });
+    using step = std::array<int, 3>;
+    std::vector<step> const cubic{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    std::vector<step> const faces{{1, 1, 0}, {1, -1, 0}, {1, 0, 1}, {1, 0, -1}, {0, 1, 1}, {0, 1, -1}};
+    each([&](int x, int y, int z) {
+        for (auto const& [dx, dy, dz] : face_centred ? faces : cubic) {
+            int const i = x + dx, j = y + dy, k = z + dz;
+            if (std::min({i, j, k}) >= 0 && std::max({i, j, k}) < sites) p.bonds.push_back({at(x, y, z), at(i, j, k)});
+        }
+    });
+    return p;
+}
+
 struct setting {
     double shear_stiffness = 1;
     bool turning = true;
@@ -112,7 +143,7 @@ template <class Model>
 lacuna::simulation_parameters<Model> parameters_of(setting const& s, double time_step) {
     lacuna::simulation_parameters<Model> p;
     p.materials.resize(1);
-    p.materials[0].density = 4 / std::numbers::pi;
+    p.materials[0].density = (Model::dim == 2 ? 4 : 6) / std::numbers::pi;
     p.materials[0].contact = {1, s.shear_stiffness, 0};
     p.materials[0].bond = {1, s.shear_stiffness};
     p.time_step = time_step;
@@ -128,7 +159,7 @@ lacuna::simulation_parameters<Model> parameters_of(setting const& s, double time
 }
 
 template <class Model>
-lacuna::simulation<Model> make(packing const& body, setting const& s, double time_step) {
+lacuna::simulation<Model> make(lacuna::packing<double, Model::dim> const& body, setting const& s, double time_step) {
     lacuna::simulation<Model> sim(body, parameters_of<Model>(s, time_step));
     if (!s.turning)
         for (std::size_t k = 0; k < body.size(); ++k) sim.fix(k, {false, false, false, true});
@@ -141,13 +172,16 @@ lacuna::simulation<Model> make(packing const& body, setting const& s, double tim
 
 /// Whether a random motion of 1e-9 stays below 1e-4: a mode that is a thousandth above the limit grows by 9 % a step.
 template <class Model>
-bool stays_bounded(packing const& body, setting const& s, double time_step) {
+bool stays_bounded(lacuna::packing<double, Model::dim> const& body, setting const& s, double time_step) {
     auto sim = make<Model>(body, s, time_step);
     random_numbers next;
     for (std::size_t k = 0; k < body.size(); ++k) {
-        double const a = next(), b = next(), c = next();
-        sim.set_velocity(k, {1e-9 * a, 1e-9 * b});
-        if (s.turning) sim.set_spin(k, {1e-9 * c});
+        lacuna::vec<double, Model::dim> velocity{};
+        lacuna::vec<double, lacuna::rotation_dim<Model::dim>> spin{};
+        for (int axis = 0; axis < velocity.size(); ++axis) velocity[axis] = 1e-9 * next();
+        for (int axis = 0; axis < spin.size(); ++axis) spin[axis] = 1e-9 * next();
+        sim.set_velocity(k, velocity);
+        if (s.turning) sim.set_spin(k, spin);
     }
     double const limit = 1e10 * sim.kinetic_energy();
     try {
@@ -160,7 +194,7 @@ bool stays_bounded(packing const& body, setting const& s, double time_step) {
 }
 
 template <class Model>
-row measure(std::string name, packing const& body, setting const& s, double theory = 0) {
+row measure(std::string name, lacuna::packing<double, Model::dim> const& body, setting const& s, double theory = 0) {
     row r;
     r.name = std::move(name);
     auto const limits = make<Model>(body, s, 1).limits();
@@ -284,24 +318,38 @@ packing disordered() {
     return body;
 }
 
-std::vector<row> measure_all() {
-    std::vector<row> rows;
-    auto const chain = lattice(200, 1, 0), square = lattice(40, 40, 0), triangular = lattice(40, 40, 0.5);
-    struct known {
-        char const* name;
-        packing const* body;
-        double shear, turning, fixed; ///< omega_max^2 of the infinite lattice (plane waves), rotating or not
-    };
-    for (auto const& k : {known{"chain", &chain, 1, 8, 4}, known{"chain", &chain, 0.5, 4, 4},
-                          known{"square", &square, 1, 16, 8}, known{"square", &square, 0.5, 8, 6},
-                          known{"triangular", &triangular, 1, 24, 9},
-                          known{"triangular", &triangular, 0.5, 12, 7.03125}})
+/// A lattice whose omega_max^2, infinite, is known from its plane waves, rotating or not.
+template <int Dim>
+struct known_lattice {
+    char const* name;
+    lacuna::packing<double, Dim> const* body;
+    double shear, turning, fixed;
+};
+template <class Model>
+void measure_lattices(std::vector<row>& rows, std::vector<known_lattice<Model::dim>> const& lattices) {
+    for (auto const& k : lattices)
         for (bool const turning : {true, false}) {
             char name[64];
             std::snprintf(name, sizeof name, "%s, k_s = %g k_n, %s", k.name, k.shear, turning ? "rotating" : "rotation off");
-            rows.push_back(measure<dry>(name, *k.body, {k.shear, turning, 0, 0},
-                                        2 / std::sqrt(turning ? k.turning : k.fixed)));
+            rows.push_back(measure<Model>(name, *k.body, {k.shear, turning, 0, 0},
+                                          2 / std::sqrt(turning ? k.turning : k.fixed)));
         }
+}
+
+std::vector<row> measure_all() {
+    std::vector<row> rows;
+    auto const chain = lattice(200, 1, 0), square = lattice(40, 40, 0), triangular = lattice(40, 40, 0.5);
+    measure_lattices<dry>(rows, {{"chain", &chain, 1, 8, 4},
+                                 {"chain", &chain, 0.5, 4, 4},
+                                 {"square", &square, 1, 16, 8},
+                                 {"square", &square, 0.5, 8, 6},
+                                 {"triangular", &triangular, 1, 24, 9},
+                                 {"triangular", &triangular, 0.5, 12, 7.03125}});
+    auto const cubic = cube(14, false), face_centred = cube(16, true);
+    measure_lattices<dry_in_space>(rows, {{"simple cubic", &cubic, 1, 20, 12},
+                                          {"simple cubic", &cubic, 0.5, 10, 8},
+                                          {"face-centred cubic", &face_centred, 1, 40, 16},
+                                          {"face-centred cubic", &face_centred, 0.5, 20, 12}});
     rows.push_back(measure<dry>("disordered sheet, k_s = k_n", disordered(), {}));
     rows.push_back(measure<dashpots>("triangular, k_s = k_n, dashpots 0.2", triangular, {1, true, 0, 0.2}));
     for (double const fluid : {0.01, 0.1, 1.0, 11.0}) {
