@@ -20,6 +20,7 @@ A scenario is one TOML file in SI units. Keys with a default may be left out.
   allow_unstable_step = false run even with a time_step above the bound
   steps or end_time           exactly one: a number of steps, or s
   gravity = [0, 0]            m/s^2
+  fluid_density = 0           kg/m^3, of a fluid at rest that takes its share of the weights
   threads = 1
   damping = { local = 0, mass = 0, viscous = 0 }   factor 0 to 1; 1/s; ratio of critical damping
 [materials.NAME]              any number

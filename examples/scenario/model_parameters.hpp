@@ -108,6 +108,7 @@ lacuna::simulation_parameters<Model> model_parameters(scenario const& s) {
     p.thickness = set.thickness;
     p.mass = set.spheres ? lacuna::mass_model::sphere : lacuna::mass_model::disc;
     p.gravity = to_vec<dim>(set.gravity);
+    p.fluid_density = set.fluid_density;
     p.interactions.contacts = set.contact != contact_law::none;
     p.damping = {set.local_damping, set.mass_damping, set.viscous_damping};
     p.time_step = set.time_step;

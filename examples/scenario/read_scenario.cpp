@@ -22,7 +22,7 @@ constexpr long long many = 1000000000000000LL;
 
 settings read_settings(value const& from) {
     table const t(from, {"dimension", "real", "thickness", "mass", "contact_law", "bond_law", "integrator", "time_step",
-                         "safety", "allow_unstable_step", "steps", "end_time", "gravity", "threads", "damping"});
+                         "safety", "allow_unstable_step", "steps", "end_time", "gravity", "fluid_density", "threads", "damping"});
     settings s;
     if (t.has("dimension")) s.dimension = int(t["dimension"].integer(2, 3, "2 or 3"));
     s.single_precision = t.word("real", {"double", "float"}, 0) == 1;
@@ -50,6 +50,7 @@ settings read_settings(value const& from) {
     else
         s.steps = t["steps"].integer(0, many, "from 0 to 1e15");
     if (t.has("gravity")) s.gravity = t["gravity"].vector(s.dimension);
+    s.fluid_density = t.not_negative("fluid_density", 0);
     if (t.has("threads")) s.threads = int(t["threads"].integer(1, 1024, "from 1 to 1024"));
     if (t.has("damping")) {
         table const damping(t["damping"], {"local", "mass", "viscous"});

@@ -47,6 +47,7 @@ struct settings {
     std::optional<long long> steps;
     std::optional<double> end_time;
     point gravity{};
+    double fluid_density = 0;
     int threads = 1;
     double local_damping = 0, mass_damping = 0, viscous_damping = 0;
 };

@@ -74,8 +74,8 @@ public:
             static_assert(!has_fluid<Model>, "pores have no images: a model with fluid has an open domain");
             store_.set_period(p.domain.period);
         }
-        loads_ = load_set<real, dim>(p.gravity, store_.size());
-        loads_.apply_gravity(store_);
+        loads_ = load_set<real, dim>(p.gravity, p.weight_shares());
+        loads_.apply_weight(store_);
         interactions_ = interactions_type(store_, packing.bonds, p.materials, p.thickness, p.interactions, p.damping,
                                           p.bonds);
         walls_ = wall_contacts<contact_law_type, damping_type, real, dim>(p.walls, contact_materials, p.thickness);
@@ -247,7 +247,8 @@ public:
     /// Writes or reads all that steps and calls change; see simulation/checkpoint.hpp.
     template <class Archive>
     void serialize(Archive& ar) {
-        ar(store_, loads_);
+        ar(store_);
+        loads_.archive(ar, store_.size());
         interactions_archive::apply(ar, interactions_, store_);
         walls_.archive(ar, store_);
         ar(wall_drive_);

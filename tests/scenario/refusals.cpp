@@ -159,6 +159,7 @@ TEST_CASE("each bad value is refused by its path", "[refusal]") {
         {"steps = 20", "steps = 20\nend_time = 1.0", "simulation.end_time = 1: must be left out: steps is given"},
         {"contact_law = \"frictional_spring\"", "contact_law = \"sticky\"",
          "simulation.contact_law = \"sticky\": must be one of \"none\", \"frictional_spring\", \"hertz_mindlin\""},
+        {"gravity = [0.0, 0.0]", "fluid_density = -1", "simulation.fluid_density = -1: must be >= 0"},
         {"gravity = [0.0, 0.0]", "gravity = [0.0]", "simulation.gravity = [...]: must be a list of 2 numbers"},
         {"radius = 0.5", "radius = [0.5, 0.5]", "particles.radius = [...]: must be one value or one per particle"},
         {"radius = 0.5", "radius = [0.5, 0.5, 0.0]", "particles.radius[2] = 0: must be > 0"},

@@ -192,6 +192,7 @@ TEST_CASE("each number of a simulation", "[refusal]") {
                                 {"thickness", rule::positive},
                                 {"gravity", rule::finite},
                                 {"gravity", rule::finite},
+                                {"fluid_density", rule::not_negative},
                                 {"interactions.skin", rule::not_negative},
                                 {"interactions.initial_contact_tolerance", rule::narrow_zero},
                                 {"walls[0].point", rule::finite},

@@ -64,6 +64,7 @@ TEST_CASE("each bad parameter is refused by name", "[refusal]") {
          limit},
         {"thickness", [](settings& p) -> double& { return p.thickness; }, positive},
         {"gravity", [](settings& p) -> double& { return p.gravity[1]; }, finite},
+        {"fluid_density", [](settings& p) -> double& { return p.fluid_density; }, not_negative},
         {"interactions.skin", [](settings& p) -> double& { return p.interactions.skin; }, not_negative},
         {"interactions.initial_contact_tolerance",
          [](settings& p) -> double& { return p.interactions.initial_contact_tolerance; },

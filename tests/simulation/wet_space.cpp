@@ -144,7 +144,6 @@ TEMPLATE_TEST_CASE("a wet cluster of spheres that is torn: ledger, momenta, mass
 }
 
 TEST_CASE("uniform pressure and the load that balances it leave a body of spheres at rest") {
-    // The fluid has no weight: its equilibrium under gravity is the uniform pressure.
     auto const spheres = cluster(4, 0.03);
     auto p = bonded(1e4, 5e3);
     p.flow.bulk_modulus = 1e4;

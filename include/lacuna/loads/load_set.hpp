@@ -3,15 +3,18 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <lacuna/core/error.hpp>
+#include <lacuna/core/state.hpp>
 #include <lacuna/particles/store.hpp>
 
 namespace lacuna {
 
-/// Forces from outside: gravity, which is always there, and on single particles a force and a torque that rise
+/// Forces from outside: weight, which is always there, and on single particles a force and a torque that rise
 /// linearly from zero within a ramp time, or are there at once.
 template <class Real, int Dim>
 class load_set {
@@ -20,7 +23,10 @@ public:
     using rotation = vec<double, rotation_dim<Dim>>;
 
     load_set() = default;
-    explicit load_set(point const& gravity, std::size_t particles) : gravity_(gravity), load_(particles) {}
+    /// \param gravity m/s^2
+    /// \param weight_share by material: what is left of a particle's weight, 1 without a fluid that it displaces
+    load_set(point const& gravity, std::vector<double> weight_share)
+        : gravity_(gravity), weight_share_(std::move(weight_share)) {}
 
     /// Replaces the load on one particle.
     /// \param k internal index
@@ -44,17 +50,32 @@ public:
     void advance(particle_store<Real, Dim>& store, double time) {
         if (rising_.empty()) return;
         for (std::size_t const k : rising_) put(store, k, time);
-        std::erase_if(rising_, [&](std::size_t k) { return time >= load_[k].start + load_[k].ramp_time; });
+        std::erase_if(rising_, [&](std::size_t k) { return time >= load_.at(k).start + load_.at(k).ramp_time; });
     }
 
-    /// Writes gravity to all particles.
-    void apply_gravity(particle_store<Real, Dim>& store) {
+    /// Writes the weight of all particles.
+    void apply_weight(particle_store<Real, Dim>& store) {
         for (std::size_t k = 0; k < store.size(); ++k) put(store, k, 0);
     }
+    /// \param particles how many there are
     template <class Archive>
-    void serialize(Archive& ar) {
-        ar(fixed_length{load_}, rising_);
-        for (std::size_t const k : rising_) require_state(k < load_.size(), "a load on no particle");
+    void archive(Archive& ar, std::size_t particles) {
+        std::vector<std::size_t> loaded;
+        std::vector<one_load> values;
+        for (auto const& [k, load] : load_) {
+            loaded.push_back(k);
+            values.push_back(load);
+        }
+        ar(loaded, values, rising_);
+        if constexpr (Archive::is_loading::value) {
+            require_state(loaded.size() == values.size(), "loads that are not one a particle");
+            load_.clear();
+            for (std::size_t n = 0; n < loaded.size(); ++n) {
+                require_state(loaded[n] < particles && (n == 0 || loaded[n - 1] < loaded[n]), "a load on no particle");
+                load_[loaded[n]] = values[n];
+            }
+            for (std::size_t const k : rising_) require_state(load_.count(k) == 1, "a rising load that is none");
+        }
     }
 
 private:
@@ -65,12 +86,14 @@ private:
     };
 
     void put(particle_store<Real, Dim>& store, std::size_t k, double time) const {
-        auto const& l = load_[k];
+        auto const found = load_.find(k);
+        one_load const l = found == load_.end() ? one_load{} : found->second;
         double const passed = time - l.start;
         double const share = passed >= l.ramp_time ? 1.0 : passed > 0 ? passed / l.ramp_time : 0.0;
         vec<Real, Dim> total{};
         for (int axis = 0; axis < Dim; ++axis)
-            total[axis] = Real(share * l.force[axis] + double(store.mass(k)) * gravity_[axis]);
+            total[axis] = Real(share * l.force[axis] +
+                               double(store.mass(k)) * weight_share_[std::size_t(store.material(k))] * gravity_[axis]);
         store.set_applied_force(k, total);
         if constexpr (Dim == 2)
             store.set_applied_torque(k, Real(share * l.torque[0]));
@@ -79,7 +102,8 @@ private:
     }
 
     point gravity_{};
-    std::vector<one_load> load_;
+    std::vector<double> weight_share_;
+    std::map<std::size_t, one_load> load_; ///< of the particles that ever had one, by internal index
     std::vector<std::size_t> rising_;
 };
 

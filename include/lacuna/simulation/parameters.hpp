@@ -26,6 +26,9 @@ struct simulation_parameters {
     mass_model mass = dim == 2 ? mass_model::disc : mass_model::sphere;
     std::vector<bond_values> bonds{};               ///< values of single bonds; none, or one entry per bond
     vec<double, dim> gravity{};                     ///< m/s^2
+    /// Of a fluid at rest around and between the particles, kg/m^3: they lose the weight of what they displace
+    /// (Archimedes), and pore pressures are those above the hydrostatic one, hydrostatic_pressure(). 0: no weight.
+    double fluid_density = 0;
     interaction_parameters interactions{};
     typename Model::domain::template parameters<dim> domain{}; ///< periodic or open
     typename Model::damping::parameters damping{};
@@ -47,12 +50,25 @@ struct simulation_parameters {
     /// is summed up, which saves a third of the memory traffic of large models. The results are the same.
     bool keep_pair_forces = true;
 
+    /// By material, what a fluid of fluid_density leaves of a particle's weight.
+    std::vector<double> weight_shares() const {
+        std::vector<double> shares;
+        for (auto const& m : materials) shares.push_back(1 - fluid_density / m.density);
+        return shares;
+    }
+    /// Pressure at x of the fluid at rest below its surface, rho_f g . (x - surface), Pa: to be added to a pore's pressure.
+    /// \param x m; \param surface any point at which it is zero, m
+    double hydrostatic_pressure(vec<double, dim> const& x, vec<double, dim> const& surface) const noexcept {
+        return fluid_density * dot(gravity, x - surface);
+    }
+
     /// \throws std::invalid_argument naming the part, the field, the value and the rule.
     void validate() const {
         if (materials.empty()) refuse("materials.size()", 0.0, "at least 1");
         for (std::size_t m = 0; m < materials.size(); ++m) materials[m].validate("materials[" + std::to_string(m) + "]");
         require_positive("thickness", thickness);
         for (int axis = 0; axis < dim; ++axis) require_finite("gravity", gravity[axis]);
+        require_not_negative("fluid_density", fluid_density);
         interactions.validate("interactions");
         domain.validate("domain");
         damping.validate("damping");
