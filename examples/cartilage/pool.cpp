@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pool.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <exception>
-#include <limits>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -14,6 +14,7 @@
 #include <lacuna/observe/progress.hpp>
 
 #include "cache.hpp"
+#include "comparison.hpp"
 #include "ending.hpp"
 #include "jobs.hpp"
 #include "probe.hpp"
@@ -85,20 +86,16 @@ private:
 
 /// "surface 31/80/-": medians of the three loads of what is done so far.
 std::string medians(std::vector<std::optional<packing_result>> const& done) {
+    std::vector<packing_result> packings;
+    for (auto const& r : done)
+        if (r) packings.push_back(*r);
     std::string text;
-    using lacuna::cartilage_zone;
-    for (auto zone : {cartilage_zone::surface, cartilage_zone::middle, cartilage_zone::deep, cartilage_zone::whole}) {
-        std::vector<std::optional<double>> first, capacity, complete;
-        for (auto const& r : done)
-            if (r && r->zone == zone) {
-                first.push_back(r->found.first_crack_MPa);
-                capacity.push_back(r->found.capacity_MPa);
-                complete.push_back(r->found.complete_MPa);
-            }
-        if (first.empty()) continue;
+    for (auto const zone : all_zones) {
+        if (std::none_of(packings.begin(), packings.end(), [&](auto const& r) { return r.zone == zone; })) continue;
         if (!text.empty()) text += ", ";
-        text.append(lacuna::to_string(zone)).append(1, ' ').append(median_text(first)).append(1, '/');
-        text.append(median_text(capacity)).append(1, '/').append(median_text(complete));
+        text.append(lacuna::to_string(zone)).append(1, ' ');
+        for (threshold const what : all_thresholds)
+            text.append(what == threshold::first_crack ? "" : "/").append(median_text(packings, zone, what));
     }
     if (!text.empty()) text += " MPa";
     return text;
@@ -106,12 +103,13 @@ std::string medians(std::vector<std::optional<packing_result>> const& done) {
 
 } // namespace
 
-std::string median_text(std::vector<std::optional<double>> const& loads) {
+std::string median_text(std::vector<packing_result> const& packings, lacuna::cartilage_zone zone, threshold what) {
+    std::vector<double> loads;
+    for (auto const& r : packings)
+        if (auto const load = r.zone == zone ? load_of(r, what) : std::nullopt) loads.push_back(*load);
     if (loads.empty()) return "?";
-    std::vector<double> numbers;
-    for (auto const& load : loads) numbers.push_back(load.value_or(std::numeric_limits<double>::infinity()));
-    double const middle = median(std::move(numbers));
-    if (!std::isfinite(middle)) return "-";
+    double const middle = median(std::move(loads));
+    if (!std::isfinite(middle)) return middle > 0 ? "-" : "<";
     char digits[32];
     std::snprintf(digits, sizeof digits, "%.0f", middle);
     return digits;

@@ -11,6 +11,7 @@
 #include "options.hpp"
 #include "search.hpp"
 #include "study_result.hpp"
+#include "study_table.hpp"
 
 /// \file
 /// Many packings, each searched for its loads on its own: one run a thread, results kept from one study to the next.
@@ -43,7 +44,7 @@ struct pool_options {
 /// \throws std::invalid_argument when a specimen or model cannot be built
 std::vector<packing_result> run_packings(std::vector<packing_request> const& requests, pool_options const& how);
 
-/// Median of loads in MPa for a person's eyes, where none is above all others: "-" when it is none, "?" of nothing.
-std::string median_text(std::vector<std::optional<double>> const& loads);
+/// Median of a zone's loads in MPa for a person's eyes: "-" above the range, "<" below it, "?" when no packing has one.
+std::string median_text(std::vector<packing_result> const& packings, lacuna::cartilage_zone zone, threshold what);
 
 } // namespace cartilage

@@ -118,14 +118,6 @@ bool find_snapshot(study_options const& o, result_cache const& cache, paper_pict
     return false;
 }
 
-std::string median_of(std::vector<packing_result> const& packings, lacuna::cartilage_zone zone,
-                      std::optional<double> thresholds::*load) {
-    std::vector<std::optional<double>> loads;
-    for (auto const& p : packings)
-        if (p.zone == zone) loads.push_back(p.found.*load);
-    return median_text(loads);
-}
-
 void print_study(std::FILE* out, study_result const& study) {
     std::fprintf(out, "  %-8s %9s %12s %9s %9s %8s\n", "zone", "packings", "first crack", "capacity", "complete",
                  "invalid");
@@ -139,11 +131,11 @@ void print_study(std::FILE* out, study_result const& study) {
         }
         if (packings == 0) continue;
         std::fprintf(out, "  %-8s %9zu %12s %9s %9s %zu of %zu runs\n", std::string(lacuna::to_string(zone)).c_str(),
-                     packings, median_of(study.packings, zone, &thresholds::first_crack_MPa).c_str(),
-                     median_of(study.packings, zone, &thresholds::capacity_MPa).c_str(),
-                     median_of(study.packings, zone, &thresholds::complete_MPa).c_str(), invalid, runs);
+                     packings, median_text(study.packings, zone, threshold::first_crack).c_str(),
+                     median_text(study.packings, zone, threshold::capacity).c_str(),
+                     median_text(study.packings, zone, threshold::complete).c_str(), invalid, runs);
     }
-    std::fprintf(out, "  medians, MPa; -: most packings above the highest load, or not to be had\n");
+    std::fprintf(out, "  medians, MPa; -: above the highest load, <: below the lowest, ?: not to be had\n");
 }
 
 /// Writes the results of a study; the report only of a whole one.

@@ -89,7 +89,7 @@ void add_model_options(CLI::App& app, model_words& w) {
     app.add_option("--length", w.length, "of the specimen, horizontal (as the choice domain says: 120)")
         ->type_name("UM");
     app.add_option("--height", w.height, "of the specimen (as the choice domain says: 300)")->type_name("UM");
-    app.add_option("--preset", w.preset, "literal: as the paper says; lattice: equal radii, no chance (literal)")
+    app.add_option("--preset", w.preset, "literal: as the paper says; lattice: equal radii, no chance; calibrated: nearest to the paper, if --dry (literal)")
         ->type_name("NAME");
     app.add_option("--choices", w.file, "file of choices that differ from the preset, a line 'name = value' each")
         ->type_name("FILE");

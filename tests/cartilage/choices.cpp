@@ -2,6 +2,8 @@
 #include "catch.hpp"
 
 #include <cmath>
+#include <fstream>
+#include <iterator>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -44,6 +46,12 @@ TEST_CASE("choices read back what they write") {
     CHECK(text_of(read) == "fill = 0.8\nload = platen\n");
     CHECK(text_of(preset_choices("literal")).empty());
     CHECK(text_of(preset_choices("lattice")) == "packing = lattice\n");
+
+    // The file that the calibration has left, but for its first line, the misfit.
+    std::ifstream file(std::string(CARTILAGE_FOLDER) + "/calibrated/best.choices");
+    std::string const best{std::istreambuf_iterator<char>(file), {}};
+    REQUIRE(best.find('\n') != std::string::npos);
+    CHECK(text_of(preset_choices("calibrated")) == best.substr(best.find('\n') + 1));
 }
 
 TEST_CASE("bad choices are refused by name, value and rule") {
@@ -66,7 +74,7 @@ TEST_CASE("bad choices are refused by name, value and rule") {
     refused("duration = -1", "duration = -1");
     refused("fill = 0.8\ndeep_fraction = 0.8", "deep_fraction + surface_fraction = 1.13333");
     refused("minimum_pressure = 0\nbond_moment = 1", "minimum_pressure = 0: must be -inf with a bond_moment");
-    CHECK_THROWS_WITH(preset_choices("odd"), "preset = odd: must be literal or lattice");
+    CHECK_THROWS_WITH(preset_choices("odd"), "preset = odd: must be one of literal, lattice, calibrated");
     // What stands for "none" is allowed beside the range.
     set_choices(c, "duration = 0\nmerge_conductance = inf\nminimum_pressure = -inf", "here");
     CHECK(c == choices{});
