@@ -306,6 +306,7 @@ TEST_CASE("every setting that matters is part of a checkpoint's identity", "[che
         [](settings& p) { p.thickness *= 2; },
         [](settings& p) { p.mass = lacuna::mass_model::sphere; },
         [](settings& p) { p.gravity[1] = -9.81; },
+        [](settings& p) { p.fluid_density = 1; },
         [](settings& p) { p.interactions.skin = 0.2; },
         [](settings& p) { p.walls[1].point[0] += 1e-6; },
         [](settings& p) { p.flow.aperture.gap_factor = 0.5; },

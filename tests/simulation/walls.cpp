@@ -73,25 +73,32 @@ TEST_CASE("a body on a belt slips, and rolls with a third of its speed", "[walls
     CHECK(std::fabs(sim.energy().residual()) < 1e-3 * sim.energy().largest());
 }
 
-TEST_CASE("a body that overlaps a wall at first is at rest there, and touches it at its radius later", "[walls]") {
-    double const overlap = 0.005, kn = 1e4, speed = 0.2, depth = speed / std::sqrt(kn); // m v^2 = k depth^2
-    above_a_wall<plane> s(-overlap);
-    s.p.interactions.initial_contact_tolerance = 0.02; // of the radius of 0.5: 0.01
-    lacuna::simulation<plane> sim(s.body, s.p);
-    sim.run(100);
-    CHECK(sim.position(0) == lacuna::vec<double, 2>{});
-    CHECK(sim.walls().force(0)[1] == 0);
-    for (double const touching : {0.0, overlap}) {
-        sim.set_velocity(0, along_y(-speed));
-        double deepest = 1;
-        while (sim.velocity(0)[1] < 0 || sim.position(0)[1] < 2 * overlap) {
-            sim.run(1);
-            deepest = std::min(deepest, sim.position(0)[1]);
+TEST_CASE("a body that overlaps a wall, or nearly touches it, at first is at rest there, and touches it at its radius later",
+          "[walls]") {
+    double const kn = 1e4, speed = 0.2, depth = speed / std::sqrt(kn); // m v^2 = k depth^2
+    for (double const overlap : {0.005, -0.005})
+        for (double const skin : {0.1, 0.0}) {
+            INFO("overlap " << overlap << ", skin " << skin);
+            above_a_wall<plane> s(-overlap);
+            s.p.interactions.initial_contact_tolerance = 0.02; // of the radius of 0.5: 0.01
+            s.p.interactions.skin = skin;
+            lacuna::simulation<plane> sim(s.body, s.p);
+            sim.run(100);
+            REQUIRE(sim.position(0) == lacuna::vec<double, 2>{});
+            REQUIRE(sim.walls().force(0)[1] == 0);
+            for (double const touching : {0.0, overlap}) {
+                sim.set_velocity(0, along_y(-speed));
+                double deepest = 1;
+                while (sim.velocity(0)[1] < 0 || sim.position(0)[1] < 0.01) {
+                    sim.run(1);
+                    deepest = std::min(deepest, sim.position(0)[1]);
+                }
+                REQUIRE_THAT(deepest, WithinAbs(touching - depth, 1e-3 * depth));
+                REQUIRE_THAT(sim.velocity(0)[1], WithinRel(speed, 1e-3));
+            }
         }
-        CHECK_THAT(deepest, WithinAbs(touching - depth, 1e-3 * depth));
-        CHECK_THAT(sim.velocity(0)[1], WithinRel(speed, 1e-3));
-    }
 
+    double const overlap = 0.005;
     above_a_wall<plane> deep(-3 * overlap); // beyond the tolerance: the overlap is a force
     deep.p.interactions.initial_contact_tolerance = 0.02;
     lacuna::simulation<plane> thrown(deep.body, deep.p);

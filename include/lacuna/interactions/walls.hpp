@@ -72,14 +72,15 @@ public:
             for (std::size_t k = 0; k < store.size(); ++k) {
                 Real const r = store.radius(k);
                 Real const distance = height(store.position(k), w);
-                bool const close = distance <= r + reach;
+                bool const close = distance <= r + std::max(reach, tolerance * r);
                 while (old < near_.size() &&
                        (near_[old].plane < w || (near_[old].plane == w && near_[old].particle < k)))
                     ++old;
                 bool const known = old < near_.size() && near_[old].plane == w && near_[old].particle == k;
                 if (!close) continue;
                 bool const touches = first && std::abs(distance - r) <= tolerance * r;
-                fresh.push_back(known ? near_[old] : near_wall{w, k, ContactLaw::template initial<Real, Dim>(touches ? distance : r, r)});
+                Real const start = touches ? distance : r;
+                fresh.push_back(known ? near_[old] : near_wall{w, k, ContactLaw::template initial<Real, Dim>(start, r)});
             }
         near_ = std::move(fresh);
     }
