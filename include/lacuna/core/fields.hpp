@@ -62,6 +62,11 @@ public:
         for (std::size_t f = 0; f < fields; ++f) detail::field<lanes>(r, f) = lanes::load(from + f * W);
         return r;
     }
+    /// Asks the memory for a pack; one beyond the end does no harm.
+    void fetch(std::size_t p) const noexcept {
+        auto const* at = reinterpret_cast<char const*>(data_.data()) + p * fields * sizeof(lanes);
+        for (std::size_t b = 0; b < fields * sizeof(lanes); b += 64) __builtin_prefetch(at + b);
+    }
     void store(std::size_t p, Aggregate<lanes> const& value) noexcept {
         Real* to = data_.data() + p * fields * W;
         for (std::size_t f = 0; f < fields; ++f) detail::field<lanes>(value, f).store(to + f * W);

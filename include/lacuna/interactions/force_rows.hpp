@@ -76,6 +76,10 @@ public:
     /// Row of the first particle of a chunk; the others follow. An entry is the offset of a force.
     std::int32_t const* rows(int chunk) const noexcept { return entry_.data() + begin_[std::size_t(chunk)]; }
 
+    std::size_t bytes(int chunk) const noexcept {
+        return (begin_[std::size_t(chunk) + 1] - begin_[std::size_t(chunk)]) * sizeof(std::int32_t);
+    }
+
 private:
     std::vector<std::int32_t> degree_, half_row_, entry_;
     std::vector<std::size_t> begin_;

@@ -8,6 +8,7 @@
 
 #include <lacuna/interactions/force_places.hpp>
 #include <lacuna/interactions/force_rows.hpp>
+#include <lacuna/interactions/read_ahead.hpp>
 
 namespace lacuna {
 
@@ -48,6 +49,7 @@ public:
         places_[0].build(bonds, particles, spans_, again_);
         places_[1].build(contacts, particles, spans_, again_);
         rows_.build(particles, places_, bonds, contacts);
+        ahead_.build(particles, chunks, bonds, contacts);
         std::size_t const places = (places_[0].count() + places_[1].count()) * width;
         forces_.column.resize((places + 1) * pair_forces<Real, Dim>::records_per_pair);
         auto* zero = forces_.of(places);
@@ -154,6 +156,25 @@ public:
         }
     }
 
+    /// What to ask the memory for during the evaluation of a chunk.
+    template <class Store, class Bonds, class Contacts>
+    read_ahead::plan read_ahead_of(Store const& store, int chunk, Bonds const& bonds, Contacts const& contacts) const noexcept {
+        read_ahead::plan plan;
+        if (!ahead_.pays()) return plan;
+        auto const packs_of = [&](auto const& table) {
+            return chunk < table.chunks() ? table.end_pack(chunk) - table.first_pack(chunk) : 0;
+        };
+        std::size_t const packs = packs_of(bonds) + packs_of(contacts);
+        auto const [first, end] = ahead_.fresh(chunk + 1);
+        auto const own = std::size_t(chunk) * chunk_particles;
+        plan.any = true;
+        plan.streams = {read_ahead::stream(store.bodies().data() + store.bodies().stride * first,
+                                           store.bodies().stride * (end - first) * sizeof(Real), packs),
+                        read_ahead::stream(rows_.rows(chunk), rows_.bytes(chunk), packs),
+                        read_ahead::stream(store.inverse_masses() + own, chunk_particles * sizeof(Real), packs)};
+        return plan;
+    }
+
 private:
     template <class Bonds, class Contacts>
     void build_normals(Bonds const& bonds, Contacts const& contacts) {
@@ -176,6 +197,7 @@ private:
 
     pair_forces<Real, Dim> forces_;
     force_rows<Real, Dim> rows_;
+    read_ahead ahead_;
     chunk_spans spans_;
     std::array<force_places, 2> places_;
     record_column<Real> sums_;      // of the particles, while forces are not kept

@@ -127,15 +127,16 @@ public:
     void evaluate(store_type const& store, int chunk, Real time_step) {
         auto& energy = energy_[std::size_t(chunk)];
         energy = {};
+        auto ahead = forces_.read_ahead_of(store, chunk, bonds_, contacts_);
         if constexpr (!is_absent<BondLaw>)
             evaluate_chunk<pair_kind::bond, WithEnergy, BondLaw, Damping, Domain>(
                 bonds_, chunk, bond_parameters_, damping_, store, time_step, forces_.template begin<0>(bonds_, chunk),
-                forces_.template places<0>(bonds_, chunk), forces_.template normals_of<0>(), moments_.data(), energy[0],
+                forces_.template places<0>(bonds_, chunk), forces_.template normals_of<0>(), moments_.data(), ahead, energy[0],
                 [&](std::size_t pack) { break_bonds(store, chunk, pack, time_step); });
         if constexpr (!is_absent<ContactLaw>)
             evaluate_chunk<pair_kind::contact, WithEnergy, ContactLaw, Damping, Domain>(
                 contacts_, chunk, contact_parameters_, damping_, store, time_step, forces_.template begin<1>(contacts_, chunk),
-                forces_.template places<1>(contacts_, chunk), forces_.template normals_of<1>(), contact_moments_.data(), energy[1],
+                forces_.template places<1>(contacts_, chunk), forces_.template normals_of<1>(), contact_moments_.data(), ahead, energy[1],
                 [&](std::size_t pack) {
                     if (auto const k = find_deep_overlap(store, contacts_, pack); k >= 0) deep_overlap_[std::size_t(chunk)] = k;
                 });

@@ -6,6 +6,7 @@
 #include <lacuna/interactions/force_places.hpp>
 #include <lacuna/interactions/kinematics.hpp>
 #include <lacuna/interactions/pair_table.hpp>
+#include <lacuna/interactions/read_ahead.hpp>
 #include <lacuna/laws/damping.hpp>
 #include <lacuna/particles/store.hpp>
 
@@ -173,7 +174,8 @@ template <pair_kind Kind, bool WithEnergy, class Law, class Damping, class Domai
                                       typename Damping::parameters const& damping,
                                       particle_store<Real, Dim> const& store, Real time_step, Real* forces,
                                       force_places::row const& places, Real* normals,
-                                      [[maybe_unused]] Real* moments, pair_energy& energy, OnEvent const& on_event) {
+                                      [[maybe_unused]] Real* moments, read_ahead::plan& ahead, pair_energy& energy,
+                                      OnEvent const& on_event) {
     using lanes = typename pair_table<Law, Real, Dim>::lanes;
     constexpr int W = lanes::width;
     constexpr std::size_t stride = 4 * pair_forces<Real, Dim>::records_per_pair;
@@ -183,8 +185,14 @@ template <pair_kind Kind, bool WithEnergy, class Law, class Damping, class Domai
     std::size_t place = places.first, kept = places.kept;
     typename Law::template parameters<lanes> law{};
     std::int32_t loaded = -2;
+    constexpr std::size_t packs_ahead = 16;
+    bool const fetches = ahead.any;
     for (std::size_t p = table.first_pack(chunk), end = table.end_pack(chunk); p < end; ++p) {
         std::size_t const slot = p * W;
+        if (fetches) {
+            ahead.fetch();
+            table.fetch(p + packs_ahead);
+        }
         auto pair = load_relative<lanes>(store, table.i_records() + slot, table.j_records() + slot);
         if constexpr (Domain::periodic) pair.arm = store.period().shortest(pair.arm);
         auto frame = relative_motion(pair, dt);

@@ -125,6 +125,13 @@ public:
         return i(slot) < pair.i || (i(slot) == pair.i && j(slot) < pair.j);
     }
 
+    /// Asks the memory for a pack; one beyond the end does no harm.
+    void fetch(std::size_t p) const noexcept {
+        state_.fetch(p);
+        __builtin_prefetch(i_.data() + width * p);
+        __builtin_prefetch(j_.data() + width * p);
+    }
+
     std::int32_t i(std::size_t slot) const noexcept { return std::int32_t(i_[slot] / stride); }
     std::int32_t j(std::size_t slot) const noexcept { return std::int32_t(j_[slot] / stride); }
     /// Where the particles begin in a body_column, in reals.

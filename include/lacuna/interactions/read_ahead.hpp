@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <vector>
+
+namespace lacuna {
+
+/// What the loop over the pairs of a chunk asks the memory for, line by line while it computes: the bodies that the next
+/// chunk is the first to read, and what will be read when its own particles move. Bodies that do not fit into the cache
+/// would come one by one otherwise, each waited for: no processor foresees where a pair's second particle is.
+class read_ahead {
+public:
+    static constexpr std::size_t line = 64;
+
+    /// Lines that are fetched in equal shares, pack by pack.
+    struct stream {
+        char const* at = nullptr;
+        int lines_per_pack = 0;
+
+        stream() = default;
+        stream(void const* from, std::size_t bytes, std::size_t packs) noexcept
+            : at(static_cast<char const*>(from)), lines_per_pack(int((bytes / line + packs) / std::max<std::size_t>(packs, 1))) {}
+    };
+    /// The streams of one chunk.
+    struct plan {
+        std::array<stream, 3> streams;
+        bool any = false;
+
+        /// To be called once a pack.
+        void fetch() noexcept {
+            for (auto& s : streams)
+                for (int l = 0; l < s.lines_per_pack; ++l, s.at += line) __builtin_prefetch(s.at);
+        }
+    };
+
+    /// To be called when tables have changed. \param tables the pair tables
+    template <class... Tables>
+    void build(std::size_t particles, int chunks, Tables const&... tables) {
+        first_use_.assign(particles >= fewest ? std::size_t(chunks) + 2 : 0, particles);
+        if (first_use_.empty()) return;
+        std::size_t reached = 0;
+        for (int c = 0; c < chunks; ++c) {
+            first_use_[std::size_t(c)] = reached;
+            auto const look = [&](auto const& table) {
+                if (c >= table.chunks()) return;
+                for (std::size_t s = table.first_slot(c), end = table.first_slot(c + 1); s < end; ++s)
+                    if (!table.is_filler(s, particles)) reached = std::max(reached, std::size_t(table.j(s)) + 1);
+            };
+            (look(tables), ...);
+        }
+    }
+    /// Whether there is so much that reading ahead pays.
+    bool pays() const noexcept { return !first_use_.empty(); }
+    /// First and end of the particles that the pairs of a chunk are the first to read.
+    std::array<std::size_t, 2> fresh(int chunk) const noexcept {
+        auto const c = std::size_t(chunk);
+        return {first_use_[std::min(c, first_use_.size() - 2)], first_use_[std::min(c + 1, first_use_.size() - 1)]};
+    }
+
+private:
+    static constexpr std::size_t fewest = 8192; // so few stay in the second cache
+    std::vector<std::size_t> first_use_; // of each chunk, the first particle that no chunk before it reads
+};
+
+} // namespace lacuna
