@@ -155,6 +155,13 @@ auto answer_of(Parameters const& law, pair_frame<Lanes, Dim> const& frame, State
         return Law::evaluate(law, frame.motion, state);
 }
 
+/// One pack of pairs as the kinematics sees it.
+template <class Lanes, int Dim>
+struct seen_pair {
+    relative_state<Lanes, Dim> pair;
+    pair_frame<Lanes, Dim> frame;
+};
+
 /// How the pair loop treats one law.
 enum class pair_kind { contact, bond };
 
@@ -187,15 +194,26 @@ template <pair_kind Kind, bool WithEnergy, class Law, class Damping, class Domai
     std::int32_t loaded = -2;
     constexpr std::size_t packs_ahead = 16;
     bool const fetches = ahead.any;
-    for (std::size_t p = table.first_pack(chunk), end = table.end_pack(chunk); p < end; ++p) {
+    auto const sight = [&](std::size_t p) {
+        auto pair = load_relative<lanes>(store, table.i_records() + p * W, table.j_records() + p * W);
+        if constexpr (Domain::periodic) pair.arm = store.period().shortest(pair.arm);
+        return seen_pair<lanes, Dim>{pair, relative_motion(pair, dt)};
+    };
+    // The kinematics of the next pack goes before the law of this one: a pack is one long chain of operations, each of
+    // which waits for the one before, and the processor does not look far enough ahead to begin another by itself. In
+    // space there are not enough registers for two.
+    constexpr bool looks_ahead = Dim == 2;
+    seen_pair<lanes, Dim> next{};
+    std::size_t const first = table.first_pack(chunk), end = table.end_pack(chunk);
+    if (looks_ahead && first < end) next = sight(first);
+    for (std::size_t p = first; p < end; ++p) {
         std::size_t const slot = p * W;
         if (fetches) {
             ahead.fetch();
             table.fetch(p + packs_ahead);
         }
-        auto pair = load_relative<lanes>(store, table.i_records() + slot, table.j_records() + slot);
-        if constexpr (Domain::periodic) pair.arm = store.period().shortest(pair.arm);
-        auto frame = relative_motion(pair, dt);
+        auto [pair, frame] = looks_ahead ? next : sight(p);
+        if constexpr (looks_ahead) next = sight(p + 1 < end ? p + 1 : p);
         auto state = states.load(p);
         if constexpr (Dim == 3) state.shear_force = frame.turned(state.shear_force);
         if constexpr (Dim == 3 && carries_moment<Law>) state.bending_moment = frame.turned(state.bending_moment);
