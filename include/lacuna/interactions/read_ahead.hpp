@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <vector>
 
+#include <lacuna/core/records.hpp>
+
 namespace lacuna {
 
 /// What the loop over the pairs of a chunk asks the memory for, line by line while it computes: the bodies that the next
@@ -39,7 +41,7 @@ public:
     /// To be called when tables have changed. \param tables the pair tables
     template <class... Tables>
     void build(std::size_t particles, int chunks, Tables const&... tables) {
-        first_use_.assign(particles >= fewest ? std::size_t(chunks) + 2 : 0, particles);
+        first_use_.assign(particles >= few_particles ? std::size_t(chunks) + 2 : 0, particles);
         if (first_use_.empty()) return;
         std::size_t reached = 0;
         for (int c = 0; c < chunks; ++c) {
@@ -61,7 +63,6 @@ public:
     }
 
 private:
-    static constexpr std::size_t fewest = 8192; // so few stay in the second cache
     std::vector<std::size_t> first_use_; // of each chunk, the first particle that no chunk before it reads
 };
 

@@ -167,12 +167,16 @@ public:
         lanes least(fluid.minimum_pressure), dt(time_step), zero(Real(0)), half(Real(0.5));
         lanes content(Real(0)), changed(Real(0)), work(Real(0)), vapour_work(Real(0)), prefactor(Real(0));
         Real const* flow = net.flow.data();
+        std::size_t const ahead = net.particles < few_particles ? 0 : 16;
         std::size_t const first = std::size_t(chunk) * chunk_packs, end = std::min(first + chunk_packs, packs_);
         for (std::size_t p = first; p < end; ++p) {
             std::size_t const slot = p * width;
             shape_of<lanes> shape;
             lanes volume, exerts, last = lanes::load(net.old_volume.data() + slot);
             if constexpr (Moves) {
+                // The other corners are those of pores before, most of them.
+                if (ahead > 0 && p + ahead < packs_)
+                    fetch_records<width>(place, corner_[corners - 1].data() + slot + ahead * width);
                 shape = measure_pack(place, slot);
                 lanes free_volume = volume_of(shape) * thickness, floor = lanes::load(floor_.data() + slot);
                 volume = max(free_volume, floor);

@@ -100,11 +100,15 @@ public:
         auto const parameters = aperture_parameters;
         auto const& list = packs(!Flows);
         Real const* pressure = net.pressure.data();
+        std::size_t const ahead = net.particles < few_particles ? 0 : 24;
         std::size_t const first = std::size_t(chunk) * chunk_packs, end = std::min(first + chunk_packs, list.size());
         for (std::size_t n = first; n < end; ++n) {
             std::size_t const slot = std::size_t(list[n]) * width;
             lanes conductance;
             if constexpr (Moves) {
+                // The other particles are those of throats before, most of them.
+                if (ahead > 0 && n + ahead < list.size())
+                    fetch_records<width>(place, particle_[1].data() + std::size_t(list[n + ahead]) * width);
                 auto [aperture, opening] = open<Aperture>(slot, place, normal_forces, parameters);
                 conductance = lanes::load(factor_.data() + slot) * opening;
                 aperture.store(net.aperture.data() + slot);
