@@ -44,6 +44,7 @@ struct sheet_constants {
     double jitter = 0.01;
     double time_step = 0.08;
     double skin = 1.5; ///< of the neighbour lists; second neighbours on the lattice stay beyond it
+    double skin_in_space = 1.2; ///< of those of blocks of spheres
 };
 
 /// A packing with rows and columns: disc number row * columns + column.

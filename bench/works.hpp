@@ -60,7 +60,7 @@ lacuna::simulation_parameters<Model> work_parameters(int threads = 1) {
     if (Model::dim == 2) p.thickness = sheet_thickness;
     p.keep_pair_forces = false; // no work reads the force of a single pair
     p.time_step = c.time_step;
-    p.interactions.skin = c.skin / (0.5 * (c.smallest_radius + c.largest_radius));
+    p.interactions.skin = (Model::dim == 2 ? c.skin : c.skin_in_space) / (0.5 * (c.smallest_radius + c.largest_radius));
     p.threads = threads;
     if constexpr (lacuna::has_fluid<Model>) {
         fluid_constants const f;

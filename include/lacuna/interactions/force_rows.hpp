@@ -76,6 +76,7 @@ public:
     /// Row of the first particle of a chunk; the others follow. An entry is the offset of a force.
     std::int32_t const* rows(int chunk) const noexcept { return entry_.data() + begin_[std::size_t(chunk)]; }
 
+    /// Length of the rows of a chunk, bytes.
     std::size_t bytes(int chunk) const noexcept {
         return (begin_[std::size_t(chunk) + 1] - begin_[std::size_t(chunk)]) * sizeof(std::int32_t);
     }

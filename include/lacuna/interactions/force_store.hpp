@@ -168,8 +168,9 @@ public:
         auto const [first, end] = ahead_.fresh(chunk + 1);
         auto const own = std::size_t(chunk) * chunk_particles;
         plan.any = true;
+        // In space a chunk's fresh particles lie anywhere: the loop asks for those of each pack.
         plan.streams = {read_ahead::stream(store.bodies().data() + store.bodies().stride * first,
-                                           store.bodies().stride * (end - first) * sizeof(Real), packs),
+                                           Dim == 2 ? store.bodies().stride * (end - first) * sizeof(Real) : 0, packs),
                         read_ahead::stream(rows_.rows(chunk), rows_.bytes(chunk), packs),
                         read_ahead::stream(store.inverse_masses() + own, chunk_particles * sizeof(Real), packs)};
         return plan;

@@ -173,6 +173,7 @@ enum class pair_kind { contact, bond };
 /// \param places how many there are, and which is the first pack's; only `kept` and `first` are read
 /// \param normals where the normal forces go, by slot; nullptr: nowhere
 /// \param moments where the moments on the first of each pair go, rotation_dim numbers a slot; laws with moments only
+/// \param ahead what else to ask the memory for meanwhile
 /// \param on_event called as on_event(pack) after a pack in which a bond has failed, or two particles overlap by
 ///        more than a radius; rare
 template <pair_kind Kind, bool WithEnergy, class Law, class Damping, class Domain, class Real, int Dim, class OnEvent>
@@ -211,6 +212,12 @@ template <pair_kind Kind, bool WithEnergy, class Law, class Damping, class Domai
         if (fetches) {
             ahead.fetch();
             table.fetch(p + packs_ahead);
+            if constexpr (Dim == 3)
+                if (p + packs_ahead / 2 < table.packs()) {
+                    std::uint32_t const* later = table.j_records() + (p + packs_ahead / 2) * W;
+                    fetch_records<W>(store.bodies().data(), later);
+                    for (int k = 0; k < W; ++k) __builtin_prefetch(store.surface_speeds().data() + later[k] / 2);
+                }
         }
         auto [pair, frame] = looks_ahead ? next : sight(p);
         if constexpr (looks_ahead) next = sight(p + 1 < end ? p + 1 : p);

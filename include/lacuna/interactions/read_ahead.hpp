@@ -12,33 +12,36 @@ namespace lacuna {
 
 /// What the loop over the pairs of a chunk asks the memory for, line by line while it computes: the bodies that the next
 /// chunk is the first to read, and what will be read when its own particles move. Bodies that do not fit into the cache
-/// would come one by one otherwise, each waited for: no processor foresees where a pair's second particle is.
+/// would come one by one otherwise, each waited for: no processor foresees where a pair's second particle is. It changes
+/// no result.
 class read_ahead {
 public:
-    static constexpr std::size_t line = 64;
+    static constexpr std::size_t line = 64; // bytes of a cache line
 
-    /// Lines that are fetched in equal shares, pack by pack.
+    /// Lines that are asked for in equal shares, pack by pack.
     struct stream {
         char const* at = nullptr;
-        int lines_per_pack = 0;
+        std::size_t lines_per_pack = 0;
 
         stream() = default;
         stream(void const* from, std::size_t bytes, std::size_t packs) noexcept
-            : at(static_cast<char const*>(from)), lines_per_pack(int((bytes / line + packs) / std::max<std::size_t>(packs, 1))) {}
+            : at(static_cast<char const*>(from)),
+              lines_per_pack(packs > 0 ? ((bytes + line - 1) / line + packs - 1) / packs : 0) {}
     };
     /// The streams of one chunk.
     struct plan {
         std::array<stream, 3> streams;
-        bool any = false;
+        bool any = false; ///< whether to ask for anything
 
         /// To be called once a pack.
         void fetch() noexcept {
             for (auto& s : streams)
-                for (int l = 0; l < s.lines_per_pack; ++l, s.at += line) __builtin_prefetch(s.at);
+                for (std::size_t l = 0; l < s.lines_per_pack; ++l, s.at += line) __builtin_prefetch(s.at);
         }
     };
 
-    /// To be called when tables have changed. \param tables the pair tables
+    /// To be called when tables have changed.
+    /// \param tables the pair tables
     template <class... Tables>
     void build(std::size_t particles, int chunks, Tables const&... tables) {
         first_use_.assign(particles >= few_particles ? std::size_t(chunks) + 2 : 0, particles);

@@ -215,6 +215,7 @@ public:
     bool loaded(std::size_t k) const noexcept { return loaded_[k / load_block] != 0; }
     /// From a force record to accelerations, 1/kg: 1/m along the free axes, in 2D r^2 / I for the third number.
     rec inverse_mass(std::size_t k) const noexcept { return moving_[free_[k]] * rec(inverse_mass_[k]); }
+    /// Inverse masses, whether free or not, 1/kg.
     Real const* inverse_masses() const noexcept { return inverse_mass_.data(); }
     /// 3D: from torque over radius to acceleration of the surface, r^2 / I, 1/kg.
     rec inverse_rotary(std::size_t k) const noexcept { return turning_[free_[k]] * rec(inverse_mass_[k]); }
