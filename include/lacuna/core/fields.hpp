@@ -6,6 +6,7 @@
 #include <type_traits>
 #include <vector>
 
+#include <lacuna/core/fetch.hpp>
 #include <lacuna/core/records.hpp>
 
 /// \file
@@ -64,8 +65,7 @@ public:
     }
     /// Asks the memory for a pack; one beyond the end does no harm.
     void fetch(std::size_t p) const noexcept {
-        auto const* at = reinterpret_cast<char const*>(data_.data()) + p * fields * sizeof(lanes);
-        for (std::size_t b = 0; b < fields * sizeof(lanes); b += 64) __builtin_prefetch(at + b);
+        lacuna::fetch(data_.data() + p * fields * W, fields * sizeof(lanes));
     }
     void store(std::size_t p, Aggregate<lanes> const& value) noexcept {
         Real* to = data_.data() + p * fields * W;

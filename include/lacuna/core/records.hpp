@@ -86,9 +86,6 @@ private:
 template <class Real>
 using body_column = record_column<Real, 2>;
 
-/// With fewer particles than this all that a step reads stays in the cache, and to ask for it ahead would only take time.
-inline constexpr std::size_t few_particles = 8192;
-
 namespace detail {
 template <class V, class H>
 V join(H low, H high) noexcept {
@@ -228,12 +225,6 @@ std::array<pack<T, W>, 8> turn_bodies(At const& at) noexcept {
 template <class T, int W, class Offset>
 std::array<pack<T, W>, 4> load_turned(T const* base, Offset const* offset) noexcept {
     return turn_records<T, W>([&](int k) { return record<T>::load(base + offset[k]); });
-}
-
-/// Asks the memory for what begins at base[offset[0..W)], while there is other work.
-template <int W, class T, class Offset>
-void fetch_records(T const* base, Offset const* offset) noexcept {
-    for (int k = 0; k < W; ++k) __builtin_prefetch(base + offset[k]);
 }
 
 /// Writes W records in a row: number l of record k is value[l][k].

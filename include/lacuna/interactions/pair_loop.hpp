@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include <lacuna/core/fetch.hpp>
 #include <lacuna/interactions/force_places.hpp>
 #include <lacuna/interactions/kinematics.hpp>
 #include <lacuna/interactions/pair_table.hpp>

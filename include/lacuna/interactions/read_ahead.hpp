@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <vector>
 
-#include <lacuna/core/records.hpp>
+#include <lacuna/core/fetch.hpp>
 
 namespace lacuna {
 
@@ -16,8 +16,6 @@ namespace lacuna {
 /// no result.
 class read_ahead {
 public:
-    static constexpr std::size_t line = 64; // bytes of a cache line
-
     /// Lines that are asked for in equal shares, pack by pack.
     struct stream {
         char const* at = nullptr;
@@ -26,7 +24,7 @@ public:
         stream() = default;
         stream(void const* from, std::size_t bytes, std::size_t packs) noexcept
             : at(static_cast<char const*>(from)),
-              lines_per_pack(packs > 0 ? ((bytes + line - 1) / line + packs - 1) / packs : 0) {}
+              lines_per_pack(packs > 0 ? ((bytes + cache_line - 1) / cache_line + packs - 1) / packs : 0) {}
     };
     /// The streams of one chunk.
     struct plan {
@@ -36,7 +34,7 @@ public:
         /// To be called once a pack.
         void fetch() noexcept {
             for (auto& s : streams)
-                for (std::size_t l = 0; l < s.lines_per_pack; ++l, s.at += line) __builtin_prefetch(s.at);
+                for (std::size_t l = 0; l < s.lines_per_pack; ++l, s.at += cache_line) __builtin_prefetch(s.at);
         }
     };
 

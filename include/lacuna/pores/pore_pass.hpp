@@ -9,6 +9,7 @@
 #include <type_traits>
 #include <vector>
 
+#include <lacuna/core/fetch.hpp>
 #include <lacuna/core/pack.hpp>
 #include <lacuna/core/points.hpp>
 #include <lacuna/core/records.hpp>

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include <lacuna/core/fetch.hpp>
 #include <lacuna/core/pack.hpp>
 #include <lacuna/core/records.hpp>
 #include <lacuna/laws/aperture.hpp>
