@@ -212,6 +212,7 @@ std::size_t count_pairs(Table const& table, std::size_t particles) {
 template <class Model, class Body = sheet>
 class work_run {
 public:
+    /// \param s is referred to
     work_run(Body const& s, work w, int threads = 1)
         : sheet_(s), work_(w), sim_(make_simulation<Model>(s, w, threads)) {
         auto const limits = sim_.limits();
@@ -284,7 +285,7 @@ private:
     /// A number of steps besides the timed ones, less for large sheets.
     long long few(long long most) const { return std::clamp(most * 3200 / (long long)sheet_.size(), 5LL, most); }
 
-    Body sheet_;
+    Body const& sheet_;
     work work_;
     lacuna::simulation<Model> sim_;
     energy_state begin_;

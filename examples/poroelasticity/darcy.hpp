@@ -90,7 +90,7 @@ public:
             auto const a = Eigen::Index(net.throat_pore[0][t]);
             entries.emplace_back(a, a, c);
             if (t >= net.interior_throats) {
-                source[a] += c * net.reservoir_pressure[t];
+                source[a] += c * net.reservoir_pressure(t);
                 continue;
             }
             auto const b = Eigen::Index(net.throat_pore[1][t]);
@@ -104,8 +104,8 @@ public:
         Eigen::VectorXd const p = solver.solve(source);
         steady_state s{{p.data(), p.data() + n}, 0};
         for (std::size_t t = net.interior_throats; t < net.open_throats(); ++t)
-            if (net.reservoir_pressure[t] > 0)
-                s.flow += conductance[t] * (net.reservoir_pressure[t] - p[net.throat_pore[0][t]]);
+            if (net.reservoir_pressure(t) > 0)
+                s.flow += conductance[t] * (net.reservoir_pressure(t) - p[net.throat_pore[0][t]]);
         return s;
     }
 

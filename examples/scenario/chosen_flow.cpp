@@ -35,13 +35,13 @@ void chosen_flow::solver<Real, Dim>::refresh_apertures(bodies const& place, Real
 
 template <class Real, int Dim>
 void chosen_flow::solver<Real, Dim>::take_step(bool with_ledger, bodies const& place, Real const* normal_forces, Real dt,
-                                               int threads) {
+                                               int threads, records* tractions) {
     std::visit(
         [&](auto& one) {
             if (with_ledger)
-                one.template step<true>(place, normal_forces, dt, threads);
+                one.template step<true>(place, normal_forces, dt, threads, tractions);
             else
-                one.template step<false>(place, normal_forces, dt, threads);
+                one.template step<false>(place, normal_forces, dt, threads, tractions);
         },
         chosen_);
 }
@@ -53,11 +53,6 @@ void chosen_flow::solver<Real, Dim>::advance(Real dt, int threads) {
             if constexpr (requires { one.template advance<true>(dt, threads); }) one.template advance<true>(dt, threads);
         },
         chosen_);
-}
-
-template <class Real, int Dim>
-void chosen_flow::solver<Real, Dim>::write_tractions(records& extra, int threads) const {
-    std::visit([&](auto const& one) { one.write_tractions(extra, threads); }, chosen_);
 }
 
 template <class Real, int Dim>

@@ -73,12 +73,11 @@ struct chosen_flow {
         }
         void refresh_apertures(bodies const& place, Real const* normal_forces, int threads = 1);
         template <bool WithLedger>
-        void step(bodies const& place, Real const* normal_forces, Real dt, int threads = 1) {
-            take_step(WithLedger, place, normal_forces, dt, threads);
+        void step(bodies const& place, Real const* normal_forces, Real dt, int threads = 1, records* tractions = nullptr) {
+            take_step(WithLedger, place, normal_forces, dt, threads, tractions);
         }
         /// One step of flow alone.
         void advance(Real dt, int threads);
-        void write_tractions(records& extra, int threads = 1) const;
         std::array<lacuna::vec<Real, 2>, 3> pore_tractions(std::size_t pore, points_type points, Real const* radii) const;
         Real critical_time_step() const;
         Real equation_19_time_step() const;
@@ -96,7 +95,8 @@ struct chosen_flow {
 
     private:
         void map(lookup_type const& lookup);
-        void take_step(bool with_ledger, bodies const& place, Real const* normal_forces, Real dt, int threads);
+        void take_step(bool with_ledger, bodies const& place, Real const* normal_forces, Real dt, int threads,
+                       records* tractions);
 
         parameters parameters_;
         std::variant<typename lacuna::no_flow::solver<Real, 2>, explicit_type, implicit_type> chosen_;

@@ -100,10 +100,7 @@ double read_of_pores(probe const& p, lacuna::pore_network<Real, 2> const& net, l
     }
     double into = 0; // the pore, through all its throats
     auto const pore = std::size_t(p.where.pore);
-    for (auto e = net.pore_throats.first[pore]; e < net.pore_throats.first[pore + 1]; ++e) {
-        auto const entry = net.pore_throats.entry[std::size_t(e)];
-        into += (entry % 2 == 0 ? 1 : -1) * double(net.flow[std::size_t(entry / 2)]);
-    }
+    net.throats_of.for_each(pore, [&](std::size_t t, int side) { into += (side == 0 ? 1 : -1) * double(net.flow[t]); });
     return into;
 }
 

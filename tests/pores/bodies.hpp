@@ -62,13 +62,13 @@ struct assembly {
         }
         return column;
     }
-    /// Forces that the last step left, one per particle.
+    /// Forces of the present pressures, one per particle.
     template <class Solver>
-    std::vector<place_type> tractions(Solver const& flow, int threads = 1) const {
+    std::vector<place_type> tractions(Solver flow, int threads = 1) const {
         constexpr std::size_t records = Dim == 2 ? 1 : 2;
         lacuna::record_column<double> extra;
         extra.resize(records * x.size());
-        flow.write_tractions(extra, threads);
+        flow.template step<false>(place(), no_force, 0, threads, &extra);
         std::vector<place_type> force(x.size());
         for (std::size_t i = 0; i < x.size(); ++i)
             for (int axis = 0; axis < Dim; ++axis) force[i][axis] = extra.at(records * i, axis);

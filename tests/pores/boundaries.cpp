@@ -155,8 +155,8 @@ TEST_CASE("a loaded surface is chosen by its particles, rules are asked in order
     for (std::size_t t = net.interior_throats; t < net.open_throats(); ++t) {
         auto const chosen = [&](std::size_t side) { return loaded[std::size_t(net.throat_particle[side][t])] != 0; };
         bool const both = chosen(0) && chosen(1);
-        REQUIRE(net.throat_source[t] == (both ? 0 : 1));
-        REQUIRE(net.reservoir_pressure[t] == (both ? 3.0 : 1.0));
+        REQUIRE(net.throat_source(t) == (both ? 0 : 1));
+        REQUIRE(net.reservoir_pressure(t) == (both ? 3.0 : 1.0));
         ++(both ? under : beside);
     }
     REQUIRE(under == 2);

@@ -184,7 +184,7 @@ TEST_CASE("conductivity of a honeycomb of pores is the same in both directions")
         double in = 0, out = 0;
         auto const& net = flow.network();
         for (std::size_t t = net.interior_throats; t < net.throats(); ++t)
-            (net.reservoir_pressure[t] > 0 ? in : out) += net.flow[t];
+            (net.reservoir_pressure(t) > 0 ? in : out) += net.flow[t];
         REQUIRE_THAT(in, WithinRel(-out, 1e-9));
         return in;
     };

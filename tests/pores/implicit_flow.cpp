@@ -81,7 +81,7 @@ std::vector<double> by_elimination(Network const& before, Network const& after, 
             a[i][j] -= leak;
             a[j][i] -= leak;
         } else {
-            b[i] += leak * after.reservoir_pressure[t];
+            b[i] += leak * after.reservoir_pressure(t);
         }
     }
     return eliminate(a, b);

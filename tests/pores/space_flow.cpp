@@ -346,7 +346,7 @@ TEST_CASE("steady flow through a body of spheres is that of a full system of equ
         double const c = now.conductance[t];
         a(i, i) += c;
         if (j < 0) {
-            wanted[i] += c * now.reservoir_pressure[t];
+            wanted[i] += c * now.reservoir_pressure(t);
             continue;
         }
         a(j, j) += c;

@@ -128,7 +128,7 @@ void carry_throats(pore_network<Real, 2> const& from, pore_network<Real, 2>& to)
             now.value = old.value;
             for (std::size_t t = to.interior_throats; now.kind == flow_source_kind::pressure && t < to.open_throats();
                  ++t)
-                if (to.throat_source[t] == std::int32_t(s)) to.reservoir_pressure[t] = Real(now.value);
+                if (to.throat_source(t) == std::int32_t(s)) to.drained_pressure[t - to.interior_throats] = Real(now.value);
         }
 }
 
@@ -178,7 +178,7 @@ carried_fluid carry_fluid(pore_network<Real, 2> const& from, pore_network<Real, 
             to.volume[b] = from.volume[a];
             to.old_volume[b] = from.old_volume[a];
             to.pressure[b] = from.pressure[a];
-            to.vapour[b] = from.vapour[a];
+            if (!to.vapour.empty()) to.vapour[b] = from.vapour_of(a);
             twin[b] = a;
             heir[a++] = b++;
         }
@@ -221,16 +221,15 @@ carried_fluid carry_fluid(pore_network<Real, 2> const& from, pore_network<Real, 
         moved = false;
         for (auto const& p : gone) {
             if (has_new[find_root(up, p.pore)]) continue;
-            for (auto e = from.pore_throats.first[p.pore]; e < from.pore_throats.first[p.pore + 1]; ++e) {
-                auto const entry = from.pore_throats.entry[std::size_t(e)];
-                auto const other = from.throat_pore[std::size_t(1 - entry % 2)][std::size_t(entry / 2)];
-                if (other < 0) continue;
+            from.throats_of.for_each(p.pore, [&](std::size_t t, int side) {
+                auto const other = from.throat_pore[std::size_t(1 - side)][t];
+                if (other < 0) return;
                 auto const next =
                     heir[std::size_t(other)] == none ? std::size_t(other) : offset + heir[std::size_t(other)];
-                if (find_root(up, next) == find_root(up, p.pore)) continue;
+                if (find_root(up, next) == find_root(up, p.pore)) return;
                 unite(up, p.pore, next);
                 moved = true;
-            }
+            });
         }
         if (moved) mark();
     }
@@ -243,7 +242,7 @@ carried_fluid carry_fluid(pore_network<Real, 2> const& from, pore_network<Real, 
     for (auto const& p : gone) {
         auto& r = regions[find_root(up, p.pore)];
         double const filled = double(from.old_volume[p.pore]) * double(from.pressure[p.pore]);
-        double const vapour = bulk_modulus * double(from.vapour[p.pore]);
+        double const vapour = bulk_modulus * double(from.vapour_of(p.pore));
         r.content += filled - vapour;
         r.scale += std::fabs(filled) + vapour;
         r.old_volume += double(from.old_volume[p.pore]);
@@ -259,7 +258,7 @@ carried_fluid carry_fluid(pore_network<Real, 2> const& from, pore_network<Real, 
         double pressure = area[q] > 0 ? sum[q] / area[q] : 0;
         if (twin[q] != none) { // a neighbour of a region that has no new pores
             pressure = double(to.pressure[q]);
-            double const vapour = bulk_modulus * double(to.vapour[q]);
+            double const vapour = bulk_modulus * double(to.vapour_of(q));
             r.content += volume * pressure - vapour;
             r.scale += std::fabs(volume * pressure) + vapour;
             r.old_volume += volume;
@@ -274,8 +273,8 @@ carried_fluid carry_fluid(pore_network<Real, 2> const& from, pore_network<Real, 
         double const wanted = double(to.pressure[q]) + (r.content - r.guess) / r.volume;
         bool const torn = wanted < minimum_pressure;
         to.pressure[q] = Real(torn ? minimum_pressure : wanted);
-        to.vapour[q] = Real(torn ? (minimum_pressure - wanted) * volume / bulk_modulus : 0);
-        report.residual += (volume * double(to.pressure[q])) / bulk_modulus - double(to.vapour[q]);
+        if (!to.vapour.empty()) to.vapour[q] = Real(torn ? (minimum_pressure - wanted) * volume / bulk_modulus : 0);
+        report.residual += (volume * double(to.pressure[q])) / bulk_modulus - double(to.vapour_of(q));
         report.volume += volume;
     }
     for (auto const& r : regions) {
@@ -286,7 +285,7 @@ carried_fluid carry_fluid(pore_network<Real, 2> const& from, pore_network<Real, 
     }
     for (std::size_t p = 0; p < from.pores(); ++p)
         report.content += std::fabs(double(from.old_volume[p]) * double(from.pressure[p])) / bulk_modulus +
-                          double(from.vapour[p]);
+                          double(from.vapour_of(p));
     carry_throats(from, to);
     return report;
 }

@@ -21,7 +21,7 @@ namespace lacuna {
 /// A pore's pressure below `minimum_pressure` is held there; the volume that the liquid does not fill is remembered
 /// as vapour, which closes before the pressure rises again, so that no mass is made.
 ///
-/// In the coupled step: step(), then write_tractions(). Neither allocates memory; both give the same bits for any
+/// Memory is allocated in the first step of a network, and the first on another number of threads. The same bits for any
 /// number of threads.
 template <class Real, int Dim, aperture_law Aperture>
 class explicit_flow_solver : public flow_base<Real, Dim, flow_parameters<Aperture>> {
@@ -56,22 +56,30 @@ public:
     /// old pressures, eq. 15 for all pores, eq. 16's forces from the new pressures. Within a step of 0 s pressures
     /// follow the volumes, and nothing flows.
     /// \tparam WithLedger also keeps ledger()
+    /// \param tractions gets what the pores exert on every particle: the record {F_x, F_y, 0, 0}, in space {F_x, F_y,
+    ///        F_z, 0} and a record of zeros, N; nullptr: nobody wants it
     /// \throws std::runtime_error when `substeps` = 0 and the step takes more than most_substeps
     template <bool WithLedger>
-    void step(body_column<Real> const& place, Real const* normal_forces, Real dt, int threads = 1) {
+    void step(body_column<Real> const& place, Real const* normal_forces, Real dt, int threads = 1,
+              record_column<Real>* tractions = nullptr) {
         if (this->network_.bare()) return advance<WithLedger>(dt, threads);
         this->template begin_step<WithLedger>();
         bool const flowing = this->flows() && dt > Real(0);
-        if (this->parameters_.substeps == 1 || !flowing) {
+        bool const at_once = this->parameters_.substeps == 1;
+        bool const streaming = at_once && this->can_stream(threads);
+        this->keep_forces(streaming);
+        if (streaming && !WithLedger) {
+            this->sweep(place.data(), normal_forces, dt, flowing, tractions);
+        } else if (at_once || !flowing) {
             if (flowing) this->template compute_flows<true>(place.data(), normal_forces, threads);
-            this->template advance_pressures<true, WithLedger>(place.data(), dt, Real(1), flowing, threads);
+            this->template advance_pressures<true, WithLedger>(place.data(), dt, Real(1), flowing, threads, tractions);
         } else {
             this->measure(place.data(), threads);
             this->template compute_flows<true>(place.data(), normal_forces, threads);
             this->template take_substeps<WithLedger>(count_substeps(dt), dt, threads, [&](bool first, Real, Real) {
                 if (!first) this->template compute_flows<false>(nullptr, nullptr, threads);
             });
-            this->press(threads);
+            this->press(tractions, threads);
         }
         this->end_step(dt);
     }

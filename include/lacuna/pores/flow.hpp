@@ -24,9 +24,9 @@ struct any_pair_lookup {
 /// A flow solver of a model, the slot filled by explicit_flow, implicit_flow and no_flow:
 ///   - `parameters`: an aggregate with defaults and `validate(std::string const& name)`; those of a fluid have
 ///     `interval` and `bulk_modulus`, and its solver returns them as settings();
-///   - `solver<Real, Dim>`: made from (parameters, network, thickness, points, radii). step() and write_tractions() are
-///     called once per step, in this order; map_throats() whenever the pairs' places in memory change. A step of 0 s
-///     lets pressures follow the volumes, and nothing flow.
+///   - `solver<Real, Dim>`: made from (parameters, network, thickness, points, radii). step() is called once per step, and
+///     writes what the pores exert on the particles; map_throats() whenever the pairs' places in memory change. A step
+///     of 0 s lets pressures follow the volumes, and nothing flow.
 template <class Policy>
 concept flow_policy = requires(typename Policy::parameters const& parameters,
                                typename Policy::template solver<double, 2>& solver,
@@ -36,9 +36,8 @@ concept flow_policy = requires(typename Policy::parameters const& parameters,
     parameters.validate("flow");
     solver.map_throats(detail::any_pair_lookup{});
     solver.refresh_apertures(place, normal_forces, 1);
-    solver.template step<true>(place, normal_forces, 1.0, 1);
-    solver.template step<false>(place, normal_forces, 1.0, 1);
-    view.write_tractions(extra, 1);
+    solver.template step<true>(place, normal_forces, 1.0, 1, &extra);
+    solver.template step<false>(place, normal_forces, 1.0, 1, &extra);
     { view.critical_time_step() } -> std::convertible_to<double>;
     { view.equation_19_time_step() } -> std::convertible_to<double>;
     { view.storage_energy() } -> std::convertible_to<double>;
@@ -61,11 +60,10 @@ struct no_flow {
         template <class Lookup>
         void map_throats(Lookup const&) noexcept {}
         void refresh_apertures(body_column<Real> const&, Real const*, int = 1) noexcept {}
-        template <bool WithLedger>
-        void step(body_column<Real> const&, Real const*, Real, int = 1) noexcept {}
         /// Writes zeros.
-        void write_tractions(record_column<Real>& extra, int = 1) const noexcept {
-            std::fill(extra.data(), extra.data() + 4 * extra.size(), Real(0));
+        template <bool WithLedger>
+        void step(body_column<Real> const&, Real const*, Real, int = 1, record_column<Real>* tractions = nullptr) noexcept {
+            if (tractions) std::fill(tractions->data(), tractions->data() + 4 * tractions->size(), Real(0));
         }
         Real critical_time_step() const noexcept { return std::numeric_limits<Real>::infinity(); }
         Real equation_19_time_step() const noexcept { return std::numeric_limits<Real>::infinity(); }

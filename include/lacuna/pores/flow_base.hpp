@@ -15,7 +15,7 @@
 #include <lacuna/core/parallel.hpp>
 #include <lacuna/core/points.hpp>
 #include <lacuna/core/records.hpp>
-#include <lacuna/pores/corner_rows.hpp>
+#include <lacuna/pores/corner_forces.hpp>
 #include <lacuna/pores/flow_sums.hpp>
 #include <lacuna/pores/flow_time_step.hpp>
 #include <lacuna/pores/merging.hpp>
@@ -61,15 +61,15 @@ public:
             require_finite(name, value);
         source.value = value;
         if (source.kind == flow_source_kind::rate) return;
-        for (std::size_t t = network_.interior_throats; t < network_.open_throats(); ++t)
-            if (network_.throat_source[t] == std::int32_t(number)) network_.reservoir_pressure[t] = Real(value);
+        for (std::size_t d = 0; d < network_.drained_throats; ++d)
+            if (network_.drained_source[d] == std::int32_t(number)) network_.drained_pressure[d] = Real(value);
     }
 
     /// New pore volumes. The volume change that the next step sees is that since the last one. step() does it itself.
     void refresh_geometry(points_view<Real, Dim> points, Real const* radii) {
         if (network_.bare()) return;
-        auto const place = particle_records(points, radii);
-        for (int c = 0; c < pores_.chunks(); ++c) pores_.measure(c, network_, place.data(), thickness_);
+        if (!forces_.built()) keep_forces(true);
+        measure(particle_records(points, radii).data(), 1);
     }
 
     /// Tells each throat where the normal force of its pair is; to be called whenever the pairs' places in memory change.
@@ -107,13 +107,6 @@ public:
         throats_.collect_active(network_);
         clusters_.update(network_);
         return network_.open_throats() - throats_.active_throats();
-    }
-
-    /// Writes the forces of the pore pressures, as the last step() left them, for every particle: the record
-    /// {F_x, F_y, 0, 0}, in space {F_x, F_y, F_z, 0} and a record of zeros, N. A pore at its least volume exerts none:
-    /// it does not change its volume either.
-    void write_tractions(record_column<Real>& extra, int threads = 1) const noexcept {
-        for_each_chunk(corners_.chunks(), threads, [&](int c) { corners_.write(c, pores_.forces(), extra); });
     }
 
     /// Forces on the corners of a pore for 1 Pa in it, N; also of a pore at its least volume.
@@ -164,6 +157,7 @@ protected:
                           network.size == network_.size && network.pores() == network_.pores() && network.open_throats() == network_.open_throats();
         network_ = std::move(network);
         ledger_ = ledger;
+        drop_vapour();
         if (same) {
             pores_.set_fillers(network_);
             throats_.collect_active(network_);
@@ -183,11 +177,46 @@ protected:
 
     /// New volumes and forces for 1 Pa.
     void measure(Real const* place, int threads) noexcept {
-        for_each_chunk(pores_.chunks(), threads, [&](int c) { pores_.measure(c, network_, place, thickness_); });
+        for_each_chunk(pores_.chunks(), threads, [&](int c) { pores_.measure(c, network_, place, thickness_, forces_); });
     }
     /// Forces of the pressures, after measure().
-    void press(int threads) noexcept {
-        for_each_chunk(pores_.chunks(), threads, [&](int c) { pores_.press(c, network_); });
+    void press(record_column<Real>* tractions, int threads) noexcept {
+        for_each_chunk(pores_.chunks(), threads, [&](int c) { pores_.press(c, network_, forces_); });
+        write_tractions(tractions, threads);
+    }
+    /// Makes room for the forces on the corners. \param streaming see corner_forces
+    void keep_forces(bool streaming) {
+        if (forces_.built() && forces_.streaming() == streaming) return;
+        forces_.build(network_, pore_table<Real, Dim>::chunk_packs * pore_table<Real, Dim>::width, streaming);
+    }
+    /// Whether forces can be summed up as soon as they are there: on one thread, and nothing changes a pressure after
+    /// the pass over the pores.
+    bool can_stream(int threads) const noexcept { return threads == 1 && feed_.pores().empty() && !clusters_.on(); }
+
+    /// The whole step where can_stream(): throats, pores and sums on the particles follow each other run by run, while
+    /// what they read is in the cache. A throat belongs to the lower of its pores: once the throats before the end of a
+    /// run have their flows, nothing reads the old pressures of its pores again.
+    void sweep(Real const* place, Real const* normal_forces, Real dt, bool flowing, record_column<Real>* tractions) noexcept {
+        auto const fluid = constants();
+        auto const flow_through = [&](std::size_t first, std::size_t end) {
+            throats_.template pass<true, true, aperture_type>(first, end, network_, place, normal_forces,
+                                                              parameters_.aperture);
+        };
+        std::size_t done = 0;
+        // Drained throats belong to pores anywhere.
+        if (flowing) flow_through(throats_.first_beyond(network_, network_.pores(), 0), throats_.packs(false).size());
+        std::size_t const run = pore_table<Real, Dim>::chunk_packs * pore_table<Real, Dim>::width;
+        for (int c = 0; c < pores_.chunks(); ++c) {
+            if (flowing) {
+                std::size_t const end = throats_.first_beyond(network_, std::size_t(c + 1) * run, done);
+                flow_through(done, end);
+                done = end;
+            }
+            pores_.template advance<true, false>(c, network_, place, fluid, dt, flowing, Real(1), forces_,
+                                                 pore_sums_[std::size_t(c)]);
+            if (tractions) forces_.write_met(std::size_t(c), *tractions);
+        }
+        feed_.count(network_, dt, flowing);
     }
 
     /// Eq. 14 from the present pressures, for all throats that are not skipped; with Moves, new apertures first.
@@ -201,31 +230,35 @@ protected:
     /// Eq. 15 for all pores over dt [s], from the flows that the network holds, and what the sources bring.
     /// \tparam Fused measures the pores and writes their forces in the same pass
     /// \param flowing whether anything flows through throats
-    /// \param share see pore_table::advance()
+    /// \param part see pore_table::advance()
+    /// \param tractions as in step(); used if Fused
     template <bool Fused, bool WithLedger>
-    void advance_pressures(Real const* place, Real dt, Real share, bool flowing, int threads) noexcept {
+    void advance_pressures(Real const* place, Real dt, Real part, bool flowing, int threads,
+                           [[maybe_unused]] record_column<Real>* tractions = nullptr) noexcept {
         auto const fluid = constants();
         feed_.remember(network_);
-        if constexpr (WithLedger) clusters_.remember(network_);
+        if constexpr (WithLedger) {
+            clusters_.remember(network_);
+            std::fill(throat_sums_.begin(), throat_sums_.end(), throat_sums<Real>{});
+            add_up_throats(flowing ? dt : Real(0), threads);
+        }
         for_each_chunk(pores_.chunks(), threads, [&](int c) {
-            pores_.template advance<Fused, WithLedger>(c, network_, place, fluid, dt, flowing, share,
+            pores_.template advance<Fused, WithLedger>(c, network_, place, fluid, dt, flowing, part, forces_,
                                                        pore_sums_[std::size_t(c)]);
+            if (Fused && tractions && forces_.streaming()) forces_.write_met(std::size_t(c), *tractions);
         });
         pore_sums<Real> pores;
         throat_sums<Real> throats;
         feed_.apply(network_, fluid, dt, flowing, pores, throats);
         clusters_.template equalise<WithLedger>(network_, fluid, pores);
         if constexpr (Fused) {
-            for (auto const& f : feed_.pores()) pores_.press_one(f.pore, network_, place, thickness_);
-            for (auto const p : clusters_.members()) pores_.press_one(std::size_t(p), network_, place, thickness_);
+            for (auto const& f : feed_.pores()) pores_.press_one(f.pore, network_, place, thickness_, forces_);
+            for (auto const p : clusters_.members()) pores_.press_one(std::size_t(p), network_, place, thickness_, forces_);
+            if (!forces_.streaming()) write_tractions(tractions, threads);
         }
         if constexpr (WithLedger) {
-            int const chunks = throats_.chunks(false);
-            for_each_chunk(chunks, threads, [&](int c) {
-                throats_.add_up(c, network_, pores_.pressure_before(), flowing ? dt : Real(0),
-                                throat_sums_[std::size_t(c)]);
-            });
-            for (int c = 0; c < chunks; ++c) throats += throat_sums_[std::size_t(c)];
+            add_up_throats(flowing ? dt : Real(0), threads);
+            for (auto const& s : throat_sums_) throats += s;
             for (int c = 0; c < pores_.chunks(); ++c) pores += pore_sums_[std::size_t(c)];
             book(ledger_, pores, throats);
         }
@@ -263,6 +296,11 @@ protected:
     pore_clusters<Real, Dim> clusters_;
 
 private:
+    void write_tractions(record_column<Real>* tractions, int threads) const noexcept {
+        if (!tractions) return;
+        for_each_chunk(forces_.chunks(), threads, [&](int c) { forces_.write(c, *tractions); });
+    }
+
     flow_base(parameters const& p, network_type network, Real thickness)
         : parameters_(p), thickness_(thickness), network_(std::move(network)) {
         parameters_.validate("flow");
@@ -283,7 +321,18 @@ private:
             Real const a = network_.aperture[t];
             network_.conductance[t] = Real(p.conductivity) * (a * a * a / network_.length[t]);
         }
+        drop_vapour();
         build_tables();
+    }
+
+    /// A fluid that never tears has no vapour.
+    void drop_vapour() noexcept {
+        if (!(parameters_.minimum_pressure > -std::numeric_limits<double>::infinity())) network_.vapour = {};
+    }
+    /// The throats' part in the ledger of a step with the present pressures; see throat_table::add_up().
+    void add_up_throats(Real dt, int threads) noexcept {
+        for_each_chunk(throats_.chunks(false), threads,
+                       [&](int c) { throats_.add_up(c, network_, dt, throat_sums_[std::size_t(c)]); });
     }
 
     void build_tables() {
@@ -291,8 +340,7 @@ private:
         throats_.build(network_, Real(parameters_.conductivity));
         pore_sums_.resize(std::size_t(std::max(pores_.chunks(), 1)));
         throat_sums_.resize(std::size_t(throats_.chunks(true)));
-        corners_.build(
-            network_.particles, [&](auto const& visit) { pores_.for_each_corner(network_, visit); }, pores_.zero_offset());
+        forces_ = {};
         feed_.build(network_);
         clusters_.build(network_, parameters_.merge_conductance);
     }
@@ -303,7 +351,7 @@ private:
 
     pore_table<Real, Dim> pores_;
     throat_table<Real, Dim> throats_;
-    corner_rows<Real, Dim> corners_;
+    corner_forces<Real, Dim> forces_;
     std::vector<pore_sums<Real>> pore_sums_;
     std::vector<throat_sums<Real>> throat_sums_;
 };

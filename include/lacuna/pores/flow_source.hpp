@@ -29,13 +29,13 @@ struct flow_source {
 namespace detail {
 
 /// Gives the throats on the boundary their sources.
-/// \return the source of each drained throat, -1 of the others
+/// \return the source of each drained throat
 /// \throws std::invalid_argument for a source that is not there, is of the other kind, or acts nowhere.
 template <class Record>
 std::vector<std::int32_t> connect_sources(std::vector<flow_source>& sources, std::vector<Record> const& records) {
     auto const named = std::int32_t(sources.size());
     std::vector<double> width(sources.size(), 0.0);
-    std::vector<std::int32_t> of_throat(records.size(), -1);
+    std::vector<std::int32_t> of_throat;
     std::int32_t rest = -1;
     for (std::size_t t = 0; t < records.size(); ++t) {
         auto const& r = records[t];
@@ -45,7 +45,7 @@ std::vector<std::int32_t> connect_sources(std::vector<flow_source>& sources, std
             rest = std::int32_t(sources.size());
             sources.push_back({"drained", flow_source_kind::pressure, double(r.reservoir_pressure)});
         }
-        if (drained) of_throat[t] = r.source < 0 ? rest : r.source;
+        if (drained) of_throat.push_back(r.source < 0 ? rest : r.source);
         if (r.source < 0) continue;
         auto const s = std::size_t(r.source);
         if (r.rank == 0 || drained != (sources[s].kind == flow_source_kind::pressure))

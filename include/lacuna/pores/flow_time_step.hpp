@@ -20,13 +20,11 @@ namespace lacuna {
 template <class Real, int Dim>
 Real flow_critical_time_step(pore_network<Real, Dim> const& net, double bulk_modulus) noexcept {
     double limit = std::numeric_limits<double>::infinity();
-    auto const& table = net.pore_throats;
     for (std::size_t i = 0; i < net.pores(); ++i) {
         double conductance = 0;
-        for (auto e = table.first[i]; e < table.first[i + 1]; ++e) {
-            auto const t = std::size_t(table.entry[std::size_t(e)]) / 2;
+        net.throats_of.for_each(i, [&](std::size_t t, int) {
             if (!net.idle[t]) conductance += double(net.conductance[t]);
-        }
+        });
         if (conductance > 0) limit = std::min(limit, double(net.volume[i]) / (bulk_modulus * conductance));
     }
     return Real(limit);
@@ -49,20 +47,19 @@ double throat_time_step(pore_network<Real, Dim> const& net, std::size_t throat, 
 template <class Real, int Dim>
 Real equation_19_time_step(pore_network<Real, Dim> const& net, double bulk_modulus, double conductivity) noexcept {
     double limit = std::numeric_limits<double>::infinity();
-    auto const& table = net.pore_throats;
     for (std::size_t i = 0; i < net.pores(); ++i) {
         double aperture = 0, diameter = 0;
-        int open = 0;
-        for (auto e = table.first[i]; e < table.first[i + 1]; ++e) {
-            auto const t = std::size_t(table.entry[std::size_t(e)]) / 2;
+        int open = 0, all = 0;
+        net.throats_of.for_each(i, [&](std::size_t t, int) {
+            ++all;
             diameter += double(net.length[t]);
-            if (t >= net.open_throats()) continue;
+            if (t >= net.open_throats()) return;
             ++open;
             aperture += double(net.aperture[t]);
-        }
+        });
         if (!(open > 0) || !(conductivity > 0)) continue;
         // A throat is as long as the radii of its two particles: the mean length is 2 R.
-        diameter /= table.first[i + 1] - table.first[i];
+        diameter /= all;
         aperture /= open;
         limit = std::min(limit, diameter * double(net.volume[i]) /
                                     (open * bulk_modulus * conductivity * aperture * aperture * aperture));

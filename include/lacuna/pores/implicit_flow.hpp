@@ -100,19 +100,22 @@ public:
     /// One step of dt [s] of a body: new geometry and apertures, new pressures, eq. 16's forces from them. Within a
     /// step of 0 s pressures follow the volumes, and nothing flows.
     /// \tparam WithLedger also keeps ledger()
+    /// \param tractions as in explicit_flow_solver::step()
     template <bool WithLedger>
-    void step(body_column<Real> const& place, Real const* normal_forces, Real dt, int threads = 1) {
+    void step(body_column<Real> const& place, Real const* normal_forces, Real dt, int threads = 1,
+              record_column<Real>* tractions = nullptr) {
         if (this->network_.bare()) return advance<WithLedger>(dt, threads);
         this->template begin_step<WithLedger>();
         bool const flowing = this->flows() && dt > Real(0);
+        this->keep_forces(false);
         if (flowing) {
             this->measure(place.data(), threads);
             this->template compute_flows<true>(place.data(), normal_forces, threads);
             this->template take_substeps<WithLedger>(
                 count_substeps(), dt, threads, [&](bool, Real part, Real share) { solve_flows(part, share); });
-            this->press(threads);
+            this->press(tractions, threads);
         } else {
-            this->template advance_pressures<true, WithLedger>(place.data(), dt, Real(1), false, threads);
+            this->template advance_pressures<true, WithLedger>(place.data(), dt, Real(1), false, threads, tractions);
         }
         this->end_step(dt);
     }
@@ -216,7 +219,7 @@ private:
             if (t < net.interior_throats)
                 residual_[std::size_t(net.throat_pore[1][t])] -= flow_[t] * dt;
             else
-                scale_ = std::max(scale_, std::fabs(double(net.reservoir_pressure[t])));
+                scale_ = std::max(scale_, std::fabs(double(net.reservoir_pressure(t))));
         }
         for (auto const& f : this->feed_.pores())
             if (!holds(f)) residual_[f.pore] += net.sources[f.source].value * f.share * dt;
@@ -232,7 +235,7 @@ private:
     double far_pressure(std::size_t throat) const noexcept {
         auto const& net = this->network_;
         return throat < net.interior_throats ? pressure_[std::size_t(net.throat_pore[1][throat])]
-                                             : double(net.reservoir_pressure[throat]);
+                                             : double(net.reservoir_pressure(throat));
     }
 
     pressure_system system_;

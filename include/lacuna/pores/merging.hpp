@@ -70,7 +70,7 @@ public:
             auto const lowest = std::size_t(members_[std::size_t(first_[c])]);
             for (auto k = first_[c]; k < first_[c + 1]; ++k) {
                 auto const p = std::size_t(members_[std::size_t(k)]);
-                even = even && net.pressure[p] == net.pressure[lowest] && net.vapour[p] == Real(0);
+                even = even && net.pressure[p] == net.pressure[lowest] && net.vapour_of(p) == Real(0);
             }
             if (even) continue;
             lost += stored(net, fluid, c);
@@ -84,7 +84,7 @@ public:
     void remember(pore_network<Real, Dim> const& net) noexcept {
         for (std::size_t k = 0; k < members_.size(); ++k) {
             auto const p = std::size_t(members_[k]);
-            before_[k] = {net.pressure[p], net.old_volume[p], net.vapour[p]};
+            before_[k] = {net.pressure[p], net.old_volume[p], net.vapour_of(p)};
         }
     }
 
@@ -103,9 +103,9 @@ public:
                     Real const passed = (old.pressure + net.pressure[p]) * half,
                                mixed = (old.pressure + pressure) * half;
                     sums.content +=
-                        volume * (pressure - net.pressure[p]) / fluid.bulk_modulus - (vapour - net.vapour[p]);
+                        volume * (pressure - net.pressure[p]) / fluid.bulk_modulus - (vapour - net.vapour_of(p));
                     sums.pressure_work += (mixed - passed) * (volume - old.volume);
-                    sums.vapour_work += mixed * (vapour - old.vapour) - passed * (net.vapour[p] - old.vapour);
+                    sums.vapour_work += mixed * (vapour - old.vapour) - passed * (net.vapour_of(p) - old.vapour);
                 }
             });
     }
@@ -115,13 +115,11 @@ public:
         double limit = std::numeric_limits<double>::infinity();
         auto const outflow = [&](std::size_t p) {
             double sum = 0;
-            for (auto e = net.pore_throats.first[p]; e < net.pore_throats.first[p + 1]; ++e) {
-                auto const entry = net.pore_throats.entry[std::size_t(e)];
-                auto const t = std::size_t(entry / 2);
-                auto const other = net.throat_pore[std::size_t(1 - entry % 2)][t];
+            net.throats_of.for_each(p, [&](std::size_t t, int side) {
+                auto const other = net.throat_pore[std::size_t(1 - side)][t];
                 if (!net.idle[t] && (other < 0 || label_[std::size_t(other)] != label_[p]))
                     sum += double(net.conductance[t]);
-            }
+            });
             return sum;
         };
         auto const look = [&](double volume, double conductance) {
@@ -208,7 +206,7 @@ private:
             auto const p = std::size_t(members_[std::size_t(k)]);
             volume += net.old_volume[p];
             content += net.old_volume[p] * net.pressure[p];
-            vapour += net.vapour[p];
+            vapour += net.vapour_of(p);
         }
         Real const wanted = (content - fluid.bulk_modulus * vapour) / volume;
         bool const torn = wanted < fluid.minimum_pressure;
@@ -219,7 +217,7 @@ private:
             Real const left = share * net.old_volume[p];
             look(std::size_t(k), pressure, left);
             net.pressure[p] = pressure;
-            net.vapour[p] = left;
+            if (!net.vapour.empty()) net.vapour[p] = left;
         }
     }
 

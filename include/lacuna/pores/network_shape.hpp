@@ -14,7 +14,7 @@ namespace lacuna {
 template <class Archive, class Network>
 void archive_shape(Archive& ar, Network& net) {
     ar(net.corner, net.size, net.throat_particle, net.throat_pore, net.length, net.interior_throats,
-       net.drained_throats, net.throat_source);
+       net.drained_throats, net.drained_source);
     std::uint64_t sources = net.sources.size();
     ar(sources);
     require_state(sources == net.sources.size(), "its pores were made in another way");
@@ -26,7 +26,7 @@ template <class Real, int Dim>
 bool same_shape(pore_network<Real, Dim> const& a, pore_network<Real, Dim> const& b) {
     bool same = a.corner == b.corner && a.throat_particle == b.throat_particle && a.throat_pore == b.throat_pore &&
                 a.length == b.length && a.interior_throats == b.interior_throats &&
-                a.drained_throats == b.drained_throats && a.throat_source == b.throat_source &&
+                a.drained_throats == b.drained_throats && a.drained_source == b.drained_source &&
                 a.sources.size() == b.sources.size();
     for (std::size_t s = 0; same && s < a.sources.size(); ++s) {
         auto const &p = a.sources[s], &q = b.sources[s];

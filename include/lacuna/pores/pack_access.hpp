@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
 #include <lacuna/core/pack.hpp>
+#include <lacuna/core/records.hpp>
 
 namespace lacuna::detail {
 
@@ -22,6 +27,19 @@ pack<T, W> gather(T const* base, Index const* index) noexcept {
         return pack<T, W>(native{at(0), at(1), at(2), at(3), at(4), at(5), at(6), at(7), at(8), at(9), at(10), at(11),
                                  at(12), at(13), at(14), at(15)});
     }
+}
+
+/// Record of a particle.
+/// \param place records of the particles, as particle_store has them; here and below
+template <class T>
+record<T> load_body(T const* place, std::int32_t index) noexcept {
+    return record<T>::load(place + body_column<T>::stride * std::size_t(std::uint32_t(index)));
+}
+
+/// Places of the particles index[0..W), turned: result[l][k] is number l of the record of particle index[k].
+template <class T, int W>
+std::array<pack<T, W>, 4> load_bodies(T const* place, std::int32_t const* index) noexcept {
+    return turn_records<T, W>([&](int k) { return load_body(place, index[k]); });
 }
 
 /// W numbers that are kept in single precision.

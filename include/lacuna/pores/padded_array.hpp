@@ -10,17 +10,15 @@
 
 namespace lacuna {
 
-/// Array whose memory goes on to a whole number of packs: a loop over packs has no rest to treat apart. What lies
-/// beyond size() (the fillers) belongs to such loops and is seen by nothing else.
+/// Array whose memory goes on to a whole number of packs, and at least one entry beyond size(): a loop over packs has no
+/// rest to treat apart. What lies beyond size() (the fillers) belongs to such loops and is seen by nothing else.
 template <class T>
 class padded_array {
 public:
     /// Entries of the widest register: a multiple of any pack's width.
     static constexpr std::size_t multiple = 64 / sizeof(T);
-    /// `count` rounded up to whole packs.
-    static constexpr std::size_t padded(std::size_t count) noexcept {
-        return (count + multiple - 1) / multiple * multiple;
-    }
+    /// The number of whole packs' entries that is next above `count`.
+    static constexpr std::size_t padded(std::size_t count) noexcept { return (count / multiple + 1) * multiple; }
 
     padded_array() = default;
     explicit padded_array(std::vector<T> const& values) {

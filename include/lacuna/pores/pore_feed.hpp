@@ -56,7 +56,7 @@ public:
         for (auto& f : pores_) {
             f.pressure = net.pressure[f.pore];
             f.volume = net.old_volume[f.pore];
-            f.vapour = net.vapour[f.pore];
+            f.vapour = net.vapour_of(f.pore);
         }
     }
 
@@ -74,7 +74,7 @@ public:
             last = f.pore;
             auto& source = net.sources[f.source];
             Real const volume = net.old_volume[f.pore], per_volume = fluid.bulk_modulus / volume;
-            Real const pressure = net.pressure[f.pore], vapour = net.vapour[f.pore];
+            Real const pressure = net.pressure[f.pore], vapour = net.vapour_of(f.pore);
             Real fed, next, left(0);
             if (source.kind == flow_source_kind::rate) {
                 fed = Real(source.value * f.share) * dt;
@@ -88,7 +88,7 @@ public:
                 fed = (next - pressure) / per_volume + vapour;
             }
             net.pressure[f.pore] = next;
-            net.vapour[f.pore] = left;
+            if (!net.vapour.empty()) net.vapour[f.pore] = left;
             source.volume += double(fed);
             Real const before = (f.pressure + pressure) * half, after = (f.pressure + next) * half;
             pores.content += fed;
@@ -100,9 +100,15 @@ public:
             throats.inflow += fed;
             throats.gross += fed < Real(0) ? -fed : fed;
         }
+        count(net, dt, flows);
+    }
+
+    /// What has come through drained throats within dt [s]; apply() does it itself.
+    template <int Dim>
+    void count(pore_network<Real, Dim>& net, Real dt, bool flows) noexcept {
         if (!flows) return;
         for (std::size_t t = net.interior_throats; t < net.open_throats(); ++t)
-            if (!net.idle[t]) net.sources[std::size_t(net.throat_source[t])].volume += double(net.flow[t]) * double(dt);
+            if (!net.idle[t]) net.sources[std::size_t(net.throat_source(t))].volume += double(net.flow[t]) * double(dt);
     }
 
     /// At the end of a step of dt [s] in which fluid flowed.

@@ -16,6 +16,7 @@
 #include <lacuna/pores/flow_source.hpp>
 #include <lacuna/pores/mesh.hpp>
 #include <lacuna/pores/padded_array.hpp>
+#include <lacuna/pores/pore_throats.hpp>
 
 namespace lacuna {
 
@@ -31,13 +32,6 @@ struct bare_throat {
     std::int32_t source = -1;          ///< as in throat_boundary
 };
 
-/// Rows of a sparse table: entries first[i] to first[i + 1] belong to i. An entry 2 * throat + side says that i is
-/// at side 0 or 1 of the throat.
-struct incidence {
-    std::vector<std::int32_t> first{0};
-    std::vector<std::int32_t> entry;
-};
-
 /// Pores and throats of a body, one array per quantity (structure of arrays).
 ///
 /// A throat lies between two particles in the plane, three in space. Its pores are [0] to the left of the line from
@@ -46,44 +40,58 @@ struct incidence {
 /// particles are -1.
 template <class Real, int Dim>
 struct pore_network {
-    std::array<std::vector<std::int32_t>, std::size_t(Dim) + 1> corner; ///< particles around a pore; empty when bare
+    std::array<padded_array<std::int32_t>, std::size_t(Dim) + 1> corner; ///< particles around a pore; empty when bare
     /// What a pore's least volume is a share of, m^Dim: its simplex at build time, in space not less than the regular
     /// tetrahedron on the smallest of its spheres; empty when bare.
-    std::vector<Real> size;
+    padded_array<Real> size;
     padded_array<Real> volume;     ///< V_p, m^3
     padded_array<Real> old_volume; ///< V_p when the pressure was last advanced, m^3
     padded_array<Real> pressure;   ///< Pa
-    padded_array<Real> vapour;     ///< part of the volume that is void of liquid, at the minimum pressure, m^3
+    /// Part of the volume that is void of liquid, at the minimum pressure, m^3; empty where the fluid never tears, see
+    /// vapour_of().
+    padded_array<Real> vapour;
     std::vector<pore_place> place;
 
-    std::array<std::vector<std::int32_t>, std::size_t(Dim)> throat_particle;
-    std::array<std::vector<std::int32_t>, 2> throat_pore;
-    std::vector<Real> length;              ///< l, m
-    padded_array<Real> aperture;           ///< a, m
-    padded_array<Real> conductance;        ///< C = k a^3 / l, m^3/(s Pa)
-    padded_array<Real> flow;               ///< q of the last step, from pore [1] (or the reservoir) to pore [0], m^3/s
-    padded_array<Real> reservoir_pressure; ///< Pa; of drained throats
-    std::vector<std::int32_t> throat_source; ///< number in `sources` of a drained throat, else -1
-    std::vector<flow_source> sources;
-    std::vector<std::uint8_t> idle;        ///< 1 where the flow is skipped
+    std::array<padded_array<std::int32_t>, std::size_t(Dim)> throat_particle;
+    std::array<padded_array<std::int32_t>, 2> throat_pore;
+    padded_array<Real> length;      ///< l, m
+    padded_array<Real> aperture;    ///< a, m
+    padded_array<Real> conductance; ///< C = k a^3 / l, m^3/(s Pa)
+    padded_array<Real> flow;        ///< q of the last step, from pore [1] (or the reservoir) to pore [0], m^3/s
+    std::vector<std::uint8_t> idle; ///< 1 where the flow is skipped
     std::size_t interior_throats = 0;
     std::size_t drained_throats = 0;
+    /// Of drained throats, the first of which is throat number interior_throats; see reservoir_pressure(),
+    /// throat_source().
+    std::vector<Real> drained_pressure;
+    std::vector<std::int32_t> drained_source;
+    std::vector<flow_source> sources;
 
-    incidence pore_throats;    ///< of each pore
+    pore_throats<Real> throats_of; ///< each pore
     std::size_t particles = 0; ///< of the body, also those at no pore; 0 when bare
 
     std::size_t pores() const noexcept { return volume.size(); }
     std::size_t throats() const noexcept { return length.size(); }
     /// Throats that fluid can pass: interior and drained.
     std::size_t open_throats() const noexcept { return interior_throats + drained_throats; }
+    bool drained(std::size_t throat) const noexcept { return throat >= interior_throats && throat < open_throats(); }
     bool bare() const noexcept { return corner[0].empty(); }
+    /// Pressure behind a drained throat, Pa; 0 of others.
+    Real reservoir_pressure(std::size_t throat) const noexcept {
+        return drained(throat) ? drained_pressure[throat - interior_throats] : Real(0);
+    }
+    /// Number in `sources` of what is behind a drained throat; -1 of others.
+    std::int32_t throat_source(std::size_t throat) const noexcept {
+        return drained(throat) ? drained_source[throat - interior_throats] : -1;
+    }
+    Real vapour_of(std::size_t pore) const noexcept { return vapour.empty() ? Real(0) : vapour[pore]; }
     boundary_kind kind(std::size_t throat) const noexcept {
         return throat < open_throats() ? boundary_kind::drained : boundary_kind::sealed;
     }
     /// What a run changes; its shape is that of the receiver.
     template <class Archive>
     void serialize(Archive& ar) {
-        ar(volume, old_volume, pressure, vapour, aperture, conductance, flow, reservoir_pressure, fixed_length{idle});
+        ar(volume, old_volume, pressure, vapour, aperture, conductance, flow, fixed_length{drained_pressure}, fixed_length{idle});
         for (auto& source : sources) ar(source.value, source.volume, source.rate);
     }
 };
@@ -100,23 +108,6 @@ struct throat_record {
     double width = 0; ///< of a throat on the boundary, m, in space its area, m^2
 };
 
-template <std::size_t Sides>
-incidence make_incidence(std::array<std::vector<std::int32_t>, Sides> const& ends, std::size_t count) {
-    incidence table;
-    table.first.assign(count + 1, 0);
-    auto const each = [&](auto&& use) {
-        for (std::size_t t = 0; t < ends[0].size(); ++t)
-            for (std::size_t side = 0; side < Sides; ++side)
-                if (ends[side][t] >= 0) use(std::size_t(ends[side][t]), std::int32_t(Sides * t + side));
-    };
-    each([&](std::size_t i, std::int32_t) { ++table.first[i + 1]; });
-    for (std::size_t i = 0; i < count; ++i) table.first[i + 1] += table.first[i];
-    table.entry.resize(std::size_t(table.first.back()));
-    auto next = table.first;
-    each([&](std::size_t i, std::int32_t entry) { table.entry[std::size_t(next[i]++)] = entry; });
-    return table;
-}
-
 /// Fills in the throats, and the arrays that every network has.
 template <class Real, int Dim>
 void finish(pore_network<Real, Dim>& net, std::vector<throat_record<Real, Dim>> records, std::size_t particles) {
@@ -127,31 +118,28 @@ void finish(pore_network<Real, Dim>& net, std::vector<throat_record<Real, Dim>> 
     net.pressure.assign(pores, Real(0));
     net.vapour.assign(pores, Real(0));
     net.place.assign(pores, pore_place::interior);
-    for (auto& column : net.throat_particle) column.reserve(records.size());
-    for (auto& column : net.throat_pore) column.reserve(records.size());
-    net.length.reserve(records.size());
-    for (auto const& r : records) {
-        for (std::size_t side = 0; side < r.particle.size(); ++side)
-            net.throat_particle[side].push_back(r.particle[side]);
-        for (std::size_t side = 0; side < 2; ++side) net.throat_pore[side].push_back(r.pore[side]);
-        net.length.push_back(r.length);
+    for (auto& column : net.throat_particle) column.assign(records.size(), 0);
+    for (auto& column : net.throat_pore) column.assign(records.size(), 0);
+    net.length.assign(records.size(), Real(0));
+    net.aperture.assign(records.size(), Real(0));
+    for (std::size_t t = 0; t < records.size(); ++t) {
+        auto const& r = records[t];
+        for (std::size_t side = 0; side < r.particle.size(); ++side) net.throat_particle[side][t] = r.particle[side];
+        for (std::size_t side = 0; side < 2; ++side) net.throat_pore[side][t] = r.pore[side];
+        net.length[t] = r.length;
+        net.aperture[t] = r.aperture;
         auto& place = net.place[std::size_t(r.pore[0])];
         if (r.rank == 1) place = pore_place::drained;
         if (r.rank == 2 && place == pore_place::interior) place = pore_place::sealed;
         net.interior_throats += r.rank == 0;
         net.drained_throats += r.rank == 1;
+        if (r.rank == 1) net.drained_pressure.push_back(r.reservoir_pressure);
     }
-    net.aperture.assign(records.size(), Real(0));
-    net.reservoir_pressure.assign(records.size(), Real(0));
-    for (std::size_t t = 0; t < records.size(); ++t) {
-        net.aperture[t] = records[t].aperture;
-        net.reservoir_pressure[t] = records[t].reservoir_pressure;
-    }
-    net.throat_source = connect_sources(net.sources, records);
+    net.drained_source = connect_sources(net.sources, records);
     net.conductance.assign(records.size(), Real(0));
     net.flow.assign(records.size(), Real(0));
     net.idle.assign(records.size(), 0);
-    net.pore_throats = make_incidence(net.throat_pore, pores);
+    net.throats_of.build(net.throat_pore, pores);
     net.particles = particles;
 }
 
@@ -172,8 +160,8 @@ pore_network<Real, Dim> make_pore_network(pore_mesh<Dim> const& mesh, points_vie
                                           Boundary const& boundary = {}) {
     pore_network<Real, Dim> net;
     net.volume.assign(mesh.size(), Real(0));
-    net.size.reserve(mesh.size());
-    for (auto& column : net.corner) column.reserve(mesh.size());
+    net.size.assign(mesh.size(), Real(0));
+    for (auto& column : net.corner) column.assign(mesh.size(), 0);
     vec<Real, Dim> low{}, high{};
     for (std::size_t t = 0; t < mesh.size(); ++t)
         for (std::size_t c = 0; c <= Dim; ++c) {
@@ -182,7 +170,7 @@ pore_network<Real, Dim> make_pore_network(pore_mesh<Dim> const& mesh, points_vie
                 refuse((Dim == 2 ? "corner of triangle " : "corner of tetrahedron ") + std::to_string(t),
                        std::to_string(i), "the number of a particle");
             require_positive("radius of particle " + std::to_string(i), double(radii[i]));
-            net.corner[c].push_back(i);
+            net.corner[c][t] = i;
             auto const x = points[std::size_t(i)];
             for (int axis = 0; axis < Dim; ++axis) {
                 low[axis] = t + c == 0 ? x[axis] : min(low[axis], x[axis]);
@@ -192,7 +180,7 @@ pore_network<Real, Dim> make_pore_network(pore_mesh<Dim> const& mesh, points_vie
     std::vector<detail::throat_record<Real, Dim>> records;
     for (std::size_t t = 0; t < mesh.size(); ++t) {
         auto const& corners = mesh.simplices[t];
-        net.size.push_back(detail::reference_size(corners, points, radii));
+        net.size[t] = detail::reference_size(corners, points, radii);
         for (std::size_t c = 0; c <= Dim; ++c) {
             auto const other = mesh.neighbours[t][c];
             if (other >= 0 && std::size_t(other) < t) continue;

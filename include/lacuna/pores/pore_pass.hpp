@@ -4,15 +4,14 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <cstdint>
 #include <limits>
 #include <type_traits>
-#include <vector>
 
 #include <lacuna/core/fetch.hpp>
 #include <lacuna/core/pack.hpp>
 #include <lacuna/core/points.hpp>
 #include <lacuna/core/records.hpp>
+#include <lacuna/pores/corner_forces.hpp>
 #include <lacuna/pores/flow_sums.hpp>
 #include <lacuna/pores/geometry.hpp>
 #include <lacuna/pores/pack_access.hpp>
@@ -35,137 +34,100 @@ body_column<Real> particle_records(points_view<Real, Dim> points, Real const* ra
     return place;
 }
 
-/// What the pass reads and writes besides the network: where the corners' records begin, least volumes, the throats
-/// of each pore, and the forces on the corners. Whole packs; the last pore fills up the last one, with a least volume
-/// that no pore has: its volume and pressure never change, so it adds nothing to any sum.
+/// The pass over the pores: whole packs. The last pore fills up the last one, with a least volume that no pore has: its
+/// volume and pressure never change, so it adds nothing to any sum.
 template <class Real, int Dim>
 class pore_table {
 public:
     static constexpr int width = native_width<Real>;
-    static constexpr std::size_t corners = std::size_t(Dim) + 1;
-    /// Reals of the force on a corner: a pair, in space a record with a 0 at its end.
-    static constexpr std::size_t force_reals = Dim == 2 ? 2 : 4;
+    using forces = corner_forces<Real, Dim>;
+    static constexpr std::size_t corners = forces::corners;
     /// Packs that one thread handles at a time.
     static constexpr std::size_t chunk_packs = 128;
 
     /// \param minimum_share least volume of a pore as a share of its size at build time, times the thickness, m
     void build(pore_network<Real, Dim>& net, Real minimum_share) {
-        std::size_t const count = net.pores();
-        packs_ = (count + width - 1) / width;
-        std::size_t const slots = packs_ * width;
+        packs_ = (net.pores() + width - 1) / width;
+        minimum_share_ = minimum_share;
         set_fillers(net);
-        floor_.assign(slots, filler_volume);
-        before_.assign(slots, Real(0));
-        if (!net.bare()) {
-            force_.assign((corners * slots + 1) * force_reals, Real(0));
-            for (std::size_t c = 0; c < corners; ++c) {
-                corner_[c].assign(slots, 0);
-                for (std::size_t p = 0; p < slots; ++p)
-                    corner_[c][p] = std::uint32_t(body_column<Real>::stride) * std::uint32_t(net.corner[c][std::min(p, count - 1)]);
-            }
-            for (std::size_t p = 0; p < count; ++p) floor_[p] = minimum_share * net.size[p];
-        }
-        auto const& throats = net.pore_throats;
-        row_ = 0;
-        for (std::size_t p = 0; p < count; ++p)
-            row_ = std::max(row_, std::size_t(throats.first[p + 1] - throats.first[p]));
-        inflow_.assign(slots * row_, 0);
-        sign_.assign(slots * row_, 0.0f);
-        for (std::size_t p = 0; p < count; ++p)
-            for (auto e = throats.first[p]; e < throats.first[p + 1]; ++e) {
-                std::size_t const at = (p / width * row_ + std::size_t(e - throats.first[p])) * width + p % width;
-                inflow_[at] = throats.entry[std::size_t(e)] / 2;
-                sign_[at] = throats.entry[std::size_t(e)] % 2 == 0 ? 1.0f : -1.0f;
-            }
     }
 
     /// Gives what fills up the last pack its values; for a network that comes from elsewhere.
-    static void set_fillers(pore_network<Real, Dim>& net) noexcept {
-        net.volume.set_fillers(filler_volume);
-        net.old_volume.set_fillers(filler_volume);
+    void set_fillers(pore_network<Real, Dim>& net) const noexcept {
+        Real const volume = minimum_share_ * filler_size;
+        net.volume.set_fillers(volume);
+        net.old_volume.set_fillers(volume);
         net.pressure.set_fillers(Real(0));
-        net.vapour.set_fillers(Real(0));
+        if (!net.vapour.empty()) net.vapour.set_fillers(Real(0));
+        if (net.bare()) return;
+        net.size.set_fillers(filler_size);
+        for (auto& corner : net.corner) corner.set_fillers(corner[net.pores() - 1]);
     }
 
     int chunks() const noexcept { return int((packs_ + chunk_packs - 1) / chunk_packs); }
-    /// Calls visit(particle, where the force on it stands in forces()) for every corner of every pore.
-    template <class Visit>
-    void for_each_corner(pore_network<Real, Dim> const& net, Visit const& visit) const {
-        if (net.bare()) return;
-        for (std::size_t p = 0; p < net.pores(); ++p)
-            for (std::size_t c = 0; c < corners; ++c)
-                visit(std::size_t(net.corner[c][p]), std::uint32_t(place_of(p, c)));
-    }
-    /// Where the zeros of a force that is none stand in forces().
-    std::uint32_t zero_offset() const noexcept { return std::uint32_t(corners * packs_ * width * force_reals); }
-    /// Forces on the corners, force_reals numbers each, N.
-    Real const* forces() const noexcept { return force_.data(); }
-    /// Pressures before the last step that kept the ledger, Pa.
-    Real const* pressure_before() const noexcept { return before_.data(); }
 
     /// Measures the pores of one chunk anew: their volumes, and the forces on their corners for 1 Pa.
     [[gnu::noinline, gnu::flatten]] void measure(int chunk, pore_network<Real, Dim>& net, Real const* place,
-                                                 Real body_thickness) noexcept {
+                                                 Real body_thickness, forces& exerted) const noexcept {
         using lanes = pack<Real, width>;
-        lanes thickness(body_thickness), zero(Real(0));
+        lanes thickness(body_thickness), share(minimum_share_), zero(Real(0));
         std::size_t const first = std::size_t(chunk) * chunk_packs, end = std::min(first + chunk_packs, packs_);
         for (std::size_t p = first; p < end; ++p) {
             std::size_t const slot = p * width;
-            auto shape = measure_pack(place, slot);
-            lanes free_volume = volume_of(shape) * thickness, floor = lanes::load(floor_.data() + slot);
+            auto shape = measure_pack(net, place, slot);
+            lanes free_volume = volume_of(shape) * thickness, floor = lanes::load(net.size.data() + slot) * share;
             lanes exerts = select(free_volume > floor, thickness, zero);
             max(free_volume, floor).store(net.volume.data() + slot);
-            store_forces(slot, shape, exerts);
+            store_forces(exerted.of_pack(p), shape, exerts);
         }
     }
 
     /// Turns the forces for 1 Pa, as measure() left them, into those of the pressures.
-    [[gnu::noinline, gnu::flatten]] void press(int chunk, pore_network<Real, Dim> const& net) noexcept {
+    [[gnu::noinline, gnu::flatten]] void press(int chunk, pore_network<Real, Dim> const& net,
+                                               forces& exerted) const noexcept {
         using lanes = pack<Real, width>;
         std::size_t const first = std::size_t(chunk) * chunk_packs, end = std::min(first + chunk_packs, packs_);
         for (std::size_t p = first; p < end; ++p) {
             lanes pressure = lanes::load(net.pressure.data() + p * width);
-            for (std::size_t c = 0; c < corners; ++c) {
-                Real* to = force_.data() + (corners * p + c) * force_reals * width;
-                for (int k = 0; k < width; ++k, to += force_reals)
+            Real* to = exerted.of_pack(p);
+            for (std::size_t c = 0; c < corners; ++c)
+                for (int k = 0; k < width; ++k, to += forces::force_reals)
                     for (int axis = 0; axis < Dim; ++axis) to[axis] *= pressure[k];
-            }
         }
     }
 
     /// Writes the forces of one pore, whose pressure has changed since the pass.
-    void press_one(std::size_t pore, pore_network<Real, Dim> const& net, Real const* place,
-                   Real body_thickness) noexcept {
+    void press_one(std::size_t pore, pore_network<Real, Dim> const& net, Real const* place, Real body_thickness,
+                   forces& exerted) const noexcept {
         std::array<vec<Real, Dim>, corners> x;
         std::array<Real, corners> r;
         for (std::size_t c = 0; c < corners; ++c) {
-            Real const* at = place + corner_[c][pore];
+            Real const* at = place + body_column<Real>::stride * std::size_t(net.corner[c][pore]);
             for (int axis = 0; axis < Dim; ++axis) x[c][axis] = at[axis];
             r[c] = at[3];
         }
         auto const shape = measure_simplex(x, r);
-        Real const push = net.volume[pore] > floor_[pore] ? net.pressure[pore] * body_thickness : Real(0);
-        for (std::size_t c = 0; c < corners; ++c) {
-            Real* to = force_.data() + place_of(pore, c);
-            for (int axis = 0; axis < Dim; ++axis) to[axis] = shape.traction[c][axis] * push;
-        }
+        Real const push = net.volume[pore] > minimum_share_ * net.size[pore] ? net.pressure[pore] * body_thickness : Real(0);
+        for (std::size_t c = 0; c < corners; ++c)
+            for (int axis = 0; axis < Dim; ++axis) exerted.of(pore, c)[axis] = shape.traction[c][axis] * push;
     }
 
     /// Eq. 15 for the pores of one chunk, from the flows that the network holds.
     /// \tparam Moves first measures the pores anew, and writes eq. 16's forces of the new pressures. A pore at its
     ///         least volume exerts none: its volume does not change when its corners move.
-    /// \tparam WithLedger also keeps the old pressures and sums up energies
+    /// \tparam WithLedger also sums up energies
     /// \param place records of the particles, as particle_store has them; used if Moves
     /// \param flows whether any throat is open
-    /// \param share unless Moves: how much of the way from the old volumes to the network's the pores go
+    /// \param part unless Moves: how much of the way from the old volumes to the network's the pores go
     template <bool Moves, bool WithLedger>
     [[gnu::noinline, gnu::flatten]] void advance(int chunk, pore_network<Real, Dim>& net, Real const* place,
                                                  pore_constants<Real> const& fluid, Real time_step, bool flows,
-                                                 [[maybe_unused]] Real share, pore_sums<Real>& sums) noexcept {
+                                                 [[maybe_unused]] Real part, [[maybe_unused]] forces& exerted,
+                                                 pore_sums<Real>& sums) const noexcept {
         using lanes = pack<Real, width>;
         bool const tears = fluid.minimum_pressure > -std::numeric_limits<Real>::infinity();
         lanes stiffness(fluid.bulk_modulus), compliance(Real(1) / fluid.bulk_modulus), thickness(fluid.thickness);
-        lanes least(fluid.minimum_pressure), dt(time_step), zero(Real(0)), half(Real(0.5));
+        lanes least(fluid.minimum_pressure), dt(time_step), zero(Real(0)), half(Real(0.5)), share(minimum_share_);
         lanes content(Real(0)), changed(Real(0)), work(Real(0)), vapour_work(Real(0)), prefactor(Real(0));
         Real const* flow = net.flow.data();
         std::size_t const ahead = net.particles < few_particles ? 0 : 16;
@@ -177,23 +139,25 @@ public:
             if constexpr (Moves) {
                 // The other corners are those of pores before, most of them.
                 if (ahead > 0 && p + ahead < packs_)
-                    fetch_records<width>(place, corner_[corners - 1].data() + slot + ahead * width);
-                shape = measure_pack(place, slot);
-                lanes free_volume = volume_of(shape) * thickness, floor = lanes::load(floor_.data() + slot);
+                    fetch_records<width>(place, net.corner[corners - 1].data() + slot + ahead * width,
+                                         body_column<Real>::stride);
+                shape = measure_pack(net, place, slot);
+                lanes free_volume = volume_of(shape) * thickness, floor = lanes::load(net.size.data() + slot) * share;
                 volume = max(free_volume, floor);
                 exerts = select(free_volume > floor, thickness, zero);
                 volume.store(net.volume.data() + slot);
             } else {
                 volume = lanes::load(net.volume.data() + slot);
-                if (share < Real(1)) volume = last + (volume - last) * lanes(share);
+                if (part < Real(1)) volume = last + (volume - last) * lanes(part);
             }
             lanes grown = volume - last;
             lanes old = lanes::load(net.pressure.data() + slot);
             lanes came = zero;
             if (flows) {
-                for (std::size_t e = 0; e < row_; ++e) {
-                    std::size_t const at = (p * row_ + e) * width;
-                    came += detail::load_single<Real, width>(sign_.data() + at) * detail::gather<Real, width>(flow, inflow_.data() + at);
+                lanes outflows = detail::load_single<Real, width>(net.throats_of.outflows(p));
+                for (std::size_t e = 0; e < net.throats_of.row(); ++e) {
+                    lanes q = detail::gather<Real, width>(flow, net.throats_of.throats(p, e));
+                    came += select(outflows > lanes(Real(e)), -q, q);
                 }
                 came *= dt;
             }
@@ -211,9 +175,7 @@ public:
             }
             next.store(net.pressure.data() + slot);
             volume.store(net.old_volume.data() + slot);
-            if constexpr (Moves) {
-                store_forces(slot, shape, next * exerts);
-            }
+            if constexpr (Moves) store_forces(exerted.of_pack(p), shape, next * exerts);
             if constexpr (WithLedger) {
                 lanes middle = (next + old) * half;
                 content += volume * (next - old) * compliance + grown - torn;
@@ -221,7 +183,6 @@ public:
                 work += middle * grown;
                 vapour_work += middle * torn;
                 prefactor += old * old * grown * (compliance * half);
-                old.store(before_.data() + slot);
             }
         }
         if constexpr (WithLedger) sums = {sum(content), sum(changed), sum(work), sum(vapour_work), sum(prefactor)};
@@ -239,28 +200,21 @@ private:
     static T const& volume_of(tetrahedron_shape<T> const& shape) noexcept {
         return shape.void_volume;
     }
-    /// Where the force on a corner stands.
-    static std::size_t place_of(std::size_t pore, std::size_t corner) noexcept {
-        return ((pore / width * corners + corner) * width + pore % width) * force_reals;
-    }
-
-    [[gnu::always_inline]] auto measure_pack(Real const* place, std::size_t slot) const noexcept {
+    [[gnu::always_inline]] static auto measure_pack(pore_network<Real, Dim> const& net, Real const* place,
+                                                    std::size_t slot) noexcept {
         using lanes = pack<Real, width>;
-        auto a = load_turned<Real, width>(place, corner_[0].data() + slot);
-        auto b = load_turned<Real, width>(place, corner_[1].data() + slot);
-        auto c = load_turned<Real, width>(place, corner_[2].data() + slot);
+        auto const at = [&](std::size_t c) { return detail::load_bodies<Real, width>(place, net.corner[c].data() + slot); };
+        auto a = at(0), b = at(1), c = at(2);
         if constexpr (Dim == 2) {
             return measure_pore<lanes>({{a[0], a[1]}}, {{b[0], b[1]}}, {{c[0], c[1]}}, a[3], b[3], c[3]);
         } else {
-            auto d = load_turned<Real, width>(place, corner_[3].data() + slot);
+            auto d = at(3);
             return measure_pore<lanes>({{a[0], a[1], a[2]}}, {{b[0], b[1], b[2]}}, {{c[0], c[1], c[2]}},
                                        {{d[0], d[1], d[2]}}, a[3], b[3], c[3], d[3]);
         }
     }
 
-    void store_forces(std::size_t slot, shape_of<pack<Real, width>> const& shape,
-                      pack<Real, width> const& push) noexcept {
-        Real* to = force_.data() + corners * force_reals * slot;
+    static void store_forces(Real* to, shape_of<pack<Real, width>> const& shape, pack<Real, width> const& push) noexcept {
         if constexpr (Dim == 2) {
             detail::store_pairs(to, shape.traction[0][0] * push, shape.traction[0][1] * push);
             detail::store_pairs(to + 2 * width, shape.traction[1][0] * push, shape.traction[1][1] * push);
@@ -274,13 +228,9 @@ private:
         }
     }
 
-    static constexpr Real filler_volume = Real(1e30);
-    std::size_t packs_ = 0, row_ = 0;
-    std::array<aligned_vector<std::uint32_t>, corners> corner_;
-    aligned_vector<Real> floor_, before_, force_;
-    // Of pack p: row_ times a throat for each pore, and whether its flow comes in (1) or goes out (-1), or is none (0).
-    aligned_vector<std::int32_t> inflow_;
-    aligned_vector<float> sign_;
+    static constexpr Real filler_size = Real(1e30);
+    std::size_t packs_ = 0;
+    Real minimum_share_ = Real(1);
 };
 
 } // namespace lacuna

@@ -49,74 +49,79 @@ public:
                 Real minimum_share, ForEachPair const& for_each_pair) {
         learn(net, points.size());
         look(net, points, radii, thickness, minimum_share, for_each_pair);
-        known_.swap(found_);
     }
 
     /// Whether the mesh needs to be made anew; parameters as in accept().
     template <class ForEachPair>
     bool unfit(pore_network<Real, 2> const& net, points_view<Real, 2> points, Real const* radii, Real thickness,
                Real minimum_share, ForEachPair const& for_each_pair) {
-        bool const turned = look(net, points, radii, thickness, minimum_share, for_each_pair);
-        bool const more = !std::includes(known_.begin(), known_.end(), found_.begin(), found_.end());
-        known_.swap(found_);
-        return turned || more;
+        return look(net, points, radii, thickness, minimum_share, for_each_pair);
     }
 
     /// Writes, or reads for a mesh of `particles` particles, what a run has found so far.
     template <class Archive>
     void archive(Archive& ar, pore_network<Real, 2> const& net, std::size_t particles) {
-        ar(known_);
-        require_state(std::is_sorted(known_.begin(), known_.end()), "what is known of its mesh");
         if constexpr (Archive::is_loading::value) learn(net, particles);
+        ar(fixed_length{filled_}, touching_);
+        require_state(std::is_sorted(touching_.begin(), touching_.end()), "what is known of its mesh");
     }
 
 private:
-    /// Three corners of a pore that is filled, or two particles that touch, and -1.
-    using fault = std::array<std::int32_t, 3>;
+    using pair = std::array<std::int32_t, 2>;
 
-    static std::array<std::int32_t, 2> sorted(std::int32_t i, std::int32_t j) noexcept {
-        return {std::min(i, j), std::max(i, j)};
-    }
+    static pair sorted(std::int32_t i, std::int32_t j) noexcept { return {std::min(i, j), std::max(i, j)}; }
 
-    /// Edges and corners of a mesh.
+    /// Edges and corners of a mesh, of which nothing is known yet.
     void learn(pore_network<Real, 2> const& net, std::size_t particles) {
-        edges_.clear();
-        edges_.reserve(net.throats());
+        filled_.assign(net.pores(), 0);
+        touching_.clear();
         corner_.assign(particles, 0);
-        for (std::size_t t = 0; t < net.throats(); ++t)
-            edges_.push_back(sorted(net.throat_particle[0][t], net.throat_particle[1][t]));
-        std::sort(edges_.begin(), edges_.end());
         for (auto const& corner : net.corner)
             for (auto const i : corner) corner_[std::size_t(i)] = 1;
+        auto const edge = [&](std::size_t t) { return sorted(net.throat_particle[0][t], net.throat_particle[1][t]); };
+        first_edge_.assign(particles + 1, 0);
+        for (std::size_t t = 0; t < net.throats(); ++t) ++first_edge_[std::size_t(edge(t)[0])];
+        for (std::size_t i = 0; i < particles; ++i) first_edge_[i + 1] += first_edge_[i];
+        edge_.resize(net.throats());
+        for (std::size_t t = 0; t < net.throats(); ++t)
+            edge_[std::size_t(--first_edge_[std::size_t(edge(t)[0])])] = edge(t)[1];
+    }
+    bool is_edge(pair const& p) const noexcept {
+        auto const at = [&](std::int32_t i) { return edge_.begin() + first_edge_[std::size_t(i)]; };
+        return std::find(at(p[0]), at(p[0] + 1), p[1]) != at(p[0] + 1);
     }
 
-    /// Leaves the faults in found_. \return whether a triangle has turned over
+    /// Looks at the mesh, and remembers its faults. \return whether there is one that was not there the last time, or a
+    /// triangle has turned over
     template <class ForEachPair>
     bool look(pore_network<Real, 2> const& net, points_view<Real, 2> points, Real const* radii, Real thickness,
               Real minimum_share, ForEachPair const& for_each_pair) {
-        found_.clear();
-        bool turned = false;
+        bool found = false;
         for (std::size_t p = 0; p < net.pores(); ++p) {
-            fault const f{net.corner[0][p], net.corner[1][p], net.corner[2][p]};
-            turned = turned || !(triangle_area(points[std::size_t(f[0])], points[std::size_t(f[1])],
-                                               points[std::size_t(f[2])]) > Real(0));
-            if (net.volume[p] <= Real(1.0001) * minimum_share * thickness * net.size[p]) found_.push_back(f);
+            auto const at = [&](std::size_t c) { return points[std::size_t(net.corner[c][p])]; };
+            bool const full = net.volume[p] <= Real(1.0001) * minimum_share * thickness * net.size[p];
+            found = found || (full && !filled_[p]) || !(triangle_area(at(0), at(1), at(2)) > Real(0));
+            filled_[p] = full;
         }
+        std::vector<pair> now;
         for_each_pair([&](std::int32_t i, std::int32_t j) {
             if (!corner_[std::size_t(i)] || !corner_[std::size_t(j)]) return;
             auto const apart = points[std::size_t(j)] - points[std::size_t(i)];
             Real const reach = radii[i] + radii[j];
             if (squared_norm(apart) > reach * reach) return;
-            auto const edge = sorted(i, j);
-            if (!std::binary_search(edges_.begin(), edges_.end(), edge)) found_.push_back({edge[0], edge[1], -1});
+            if (auto const both = sorted(i, j); !is_edge(both)) now.push_back(both);
         });
-        std::sort(found_.begin(), found_.end());
-        return turned;
+        std::sort(now.begin(), now.end());
+        found = found || !std::includes(touching_.begin(), touching_.end(), now.begin(), now.end());
+        touching_.swap(now);
+        return found;
     }
 
-    std::vector<std::array<std::int32_t, 2>> edges_;
-    std::vector<std::uint8_t> corner_; // of particles: in the mesh
-    std::vector<fault> known_, found_;
+    // Of the mesh: the particles to which an edge leads from each, from the lower-numbered one; and which are in it.
+    std::vector<std::int32_t> first_edge_, edge_;
+    std::vector<std::uint8_t> corner_;
+    std::vector<std::uint8_t> filled_; // of pores, at the last look: the particles fill it
+    std::vector<pair> touching_;       // at the last look, without sharing an edge
 };
 
 } // namespace lacuna

@@ -54,8 +54,7 @@ public:
             if (flow_) {
                 int const interval = flow_->settings().interval;
                 real const flow_time = (number + 1) % interval == 0 ? dt * real(interval) : real(0);
-                flow_->template step<WithLedger>(store.bodies(), pairs.normal_forces(), flow_time, threads);
-                flow_->write_tractions(out, threads);
+                flow_->template step<WithLedger>(store.bodies(), pairs.normal_forces(), flow_time, threads, &out);
             }
     }
 
