@@ -155,6 +155,7 @@ inline sheet make_sheet(std::size_t particles, sheet_constants const& c = {}, in
     s.columns = shape[0];
     s.rows = shape[1];
     auto const count = std::size_t(s.columns) * std::size_t(s.rows);
+    for (auto* column : {&s.x, &s.y, &s.radius}) column->reserve(count);
     std::mt19937_64 generator(seed);
     auto const uniform = [&](double low, double high) {
         return low + (high - low) * (double(generator() >> 11) * 0x1p-53);

@@ -392,7 +392,7 @@ private:
         double work = double(dot(whole.force - store_.applied_force(k.particle), change));
         auto const turn = (store_.spin(k.particle) - k.spin) * store_.radius(k.particle);
         for (int axis = 0; axis < rotation_dim<dim>; ++axis) {
-            real const applied = dim == 2 ? store_.loads().at(k.particle, 2)
+            real const applied = dim == 2 ? store_.load(k.particle)[2]
                                  : store_.torques().size() > 0 ? store_.torques().at(k.particle, axis) : real(0);
             work += double((whole.turning[axis] - applied) * turn[axis]);
         }

@@ -72,7 +72,7 @@ TEST_CASE("the load is its pressure times the chosen area, and rises as chosen")
     // The last step's load is that of its beginning.
     double const share = (sim->time() - sim->time_step()) / 0.1e-9;
     REQUIRE(share > 0.05);
-    CHECK_THAT(-double(sim->particles().loads().at(std::size_t(k), 1)), WithinRel(share * full, 1e-9));
+    CHECK_THAT(-double(sim->particles().load(std::size_t(k))[1]), WithinRel(share * full, 1e-9));
 }
 
 TEST_CASE("the time step is the share of the bound that is asked for") {

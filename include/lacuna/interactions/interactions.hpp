@@ -58,7 +58,8 @@ public:
             bond_rows_.resize(bonds.size());
             for (auto const& e : bond_entries) bond_rows_[std::size_t(e.label)] = e.parameter;
         }
-        for (auto const& pair : bonds) bond_records_.push_back({pair});
+        bond_records_.assign(bonds.size(), {});
+        for (std::size_t b = 0; b < bonds.size(); ++b) bond_records_[b].particles = bonds[b];
         double mean = 0, largest = 0;
         for (Real const r : store.radii()) {
             mean += double(r) / double(store.size());

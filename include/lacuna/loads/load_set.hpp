@@ -55,6 +55,8 @@ public:
 
     /// Writes the weight of all particles.
     void apply_weight(particle_store<Real, Dim>& store) {
+        // Particles without any load take no memory for it, and no time in the step.
+        if (!(squared_norm(gravity_) > 0)) return;
         for (std::size_t k = 0; k < store.size(); ++k) put(store, k, 0);
     }
     /// \param particles how many there are

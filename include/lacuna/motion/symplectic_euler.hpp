@@ -41,14 +41,14 @@ struct symplectic_euler {
         rec path(time_step); // the fourth lane holds the radius
         path.v[3] = 0;
         rec fastest(Real(0)), poison(Real(0));
-        bool const loaded = store.loaded(first);
+        Real const* loads = store.loads_of(first);
         [[maybe_unused]] bool const torqued = store.torques().size() > 0;
         for (int k = 0; k < count; ++k) {
             std::size_t const p = first + std::size_t(k);
             rec place = store.bodies().of(p, 0);
             rec velocity = store.bodies().of(p, 1);
             rec load(Real(0));
-            if (loaded) load = store.loads()[p];
+            if (loads) load = rec::load(loads + 4 * k);
             if constexpr (Dim == 2) {
                 rec force = pair_force(k) + load;
                 if (extra) force += (*extra)[p];

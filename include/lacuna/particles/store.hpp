@@ -64,8 +64,7 @@ public:
             surface_speed_.resize(n + ghosts);
             quaternion_.assign(n, unit_quaternion());
         }
-        load_.resize(n);
-        loaded_.assign(n / load_block + 1, 0);
+        loads_at_.assign(n / load_block + 1, -1);
         free_.assign(n, 0);
         inverse_mass_.resize(n);
         Real const surface = Real(1) / (masses == mass_model::disc && Dim == 2 ? Real(0.5) : Real(0.4));
@@ -161,7 +160,12 @@ public:
         return {quaternion_.at(k, 0), quaternion_.at(k, 1), quaternion_.at(k, 2), quaternion_.at(k, 3)};
     }
     /// Force applied from outside, N.
-    point applied_force(std::size_t k) const noexcept { return head(load_, k); }
+    point applied_force(std::size_t k) const noexcept {
+        rec const load = this->load(k);
+        point r{};
+        for (int axis = 0; axis < Dim; ++axis) r[axis] = load[axis];
+        return r;
+    }
 
     void set_position(std::size_t k, point const& x) noexcept { set_head(body_, k, x); }
     void set_velocity(std::size_t k, point const& v) noexcept { set_head(body_, k, v, motion); }
@@ -171,15 +175,11 @@ public:
         else
             set_head(surface_speed_, k, w * radius_[k]);
     }
-    void set_applied_force(std::size_t k, point const& force) noexcept {
-        set_head(load_, k, force);
-        loaded_[k / load_block] = 1;
-    }
-    void set_applied_torque(std::size_t k, Real torque) noexcept
+    void set_applied_force(std::size_t k, point const& force) { set_head(load_, place_of_load(k), force); }
+    void set_applied_torque(std::size_t k, Real torque)
         requires(Dim == 2)
     {
-        load_.at(k, 2) = torque / radius_[k];
-        loaded_[k / load_block] = 1;
+        load_.at(place_of_load(k), 2) = torque / radius_[k];
     }
     /// Torque applied from outside, N m.
     void set_applied_torque(std::size_t k, point const& torque)
@@ -210,16 +210,24 @@ public:
     record_column<Real>& surface_speeds() noexcept { return surface_speed_; }
     record_column<Real> const& surface_speeds() const noexcept { return surface_speed_; }
     record_column<Real>& quaternions() noexcept { return quaternion_; }
-    record_column<Real> const& loads() const noexcept { return load_; }
-    /// Whether any particle of the block of load_block particles that `k` is in has ever been given a load.
-    bool loaded(std::size_t k) const noexcept { return loaded_[k / load_block] != 0; }
+    /// Where the loads of the block of load_block particles that begins with `first` are, a record each; nullptr while
+    /// none of them has been given one.
+    Real const* loads_of(std::size_t first) const noexcept {
+        auto const at = loads_at_[first / load_block];
+        return at < 0 ? nullptr : load_.data() + load_.stride * load_block * std::size_t(at);
+    }
+    /// Force applied from outside, N, in 2D with the torque over the radius as third number.
+    rec load(std::size_t k) const noexcept {
+        Real const* loads = loads_of(k / load_block * load_block);
+        return loads ? rec::load(loads + load_.stride * (k % load_block)) : rec(Real(0));
+    }
     /// From a force record to accelerations, 1/kg: 1/m along the free axes, in 2D r^2 / I for the third number.
     rec inverse_mass(std::size_t k) const noexcept { return moving_[free_[k]] * rec(inverse_mass_[k]); }
     /// Inverse masses, whether free or not, 1/kg.
     Real const* inverse_masses() const noexcept { return inverse_mass_.data(); }
     /// 3D: from torque over radius to acceleration of the surface, r^2 / I, 1/kg.
     rec inverse_rotary(std::size_t k) const noexcept { return turning_[free_[k]] * rec(inverse_mass_[k]); }
-    /// 3D: torques from outside over radius, N; empty while there are none. In 2D lane 2 of loads().
+    /// 3D: torques from outside over radius, N; empty while there are none. In 2D lane 2 of load().
     record_column<Real> const& torques() const noexcept { return torque_; }
     /// Masses, those of the ghosts included, kg.
     Real const* masses() const noexcept { return mass_.data(); }
@@ -229,7 +237,11 @@ public:
     Real ghost_distance() const noexcept { return ghost_distance_; }
     template <class Archive>
     void serialize(Archive& ar) {
-        ar(body_, surface_speed_, quaternion_, load_, fixed_length{free_}, fixed_length{loaded_});
+        ar(body_, surface_speed_, quaternion_, fixed_length{free_}, fixed_length{loads_at_});
+        auto const blocks = std::int32_t(std::count_if(loads_at_.begin(), loads_at_.end(), [](auto at) { return at >= 0; }));
+        for (auto const at : loads_at_) require_state(at >= -1 && at < blocks, "where its loads are");
+        load_.resize(load_block * std::size_t(blocks));
+        ar(load_);
         bool turned = torque_.size() > 0;
         ar(turned);
         if (turned) {
@@ -252,6 +264,15 @@ private:
         q.v[0] = 1;
         return q;
     }
+    /// Where the load of a particle is in load_, for which there is room from now on.
+    std::size_t place_of_load(std::size_t k) {
+        auto& at = loads_at_[k / load_block];
+        if (at < 0) {
+            at = std::int32_t(load_.size() / load_block);
+            load_.resize(load_.size() + load_block);
+        }
+        return load_block * std::size_t(at) + k % load_block;
+    }
     /// Where the velocity begins in an entry of body_.
     static constexpr int motion = 4;
     template <class Column>
@@ -270,7 +291,8 @@ private:
     std::vector<std::int32_t> id_, internal_;
     std::vector<int> material_;
     std::vector<Real> radius_, mass_, inertia_, inverse_mass_;
-    std::vector<std::uint8_t> free_, loaded_;
+    std::vector<std::uint8_t> free_;
+    std::vector<std::int32_t> loads_at_; // of blocks of load_block particles: which block of load_; -1: none
     /// Which components of a force, and of a torque over radius, move a particle: a record for each pattern of free_.
     record_column<Real> moving_ = record_column<Real>(free_patterns), turning_ = record_column<Real>(free_patterns);
     body_column<Real> body_; // places and velocities

@@ -36,7 +36,7 @@ particle_force<Real, Dim> total_force(particle_store<Real, Dim> const& store, In
         else
             add(of_pairs[0], of_pairs[1]);
     });
-    record<Real> const load = store.loads()[k], none(Real(0));
+    record<Real> const load = store.load(k), none(Real(0));
     add(load, Dim == 2 ? load : store.torques().size() > 0 ? store.torques()[k] : none);
     add(extra[records * k], extra[records * (k + 1) - 1]);
     return sum;
