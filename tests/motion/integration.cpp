@@ -45,6 +45,32 @@ TEST_CASE("uniform acceleration is integrated as the scheme's sum", "[motion]") 
     REQUIRE_THAT(run.time(), WithinRel(4.0, 1e-15));
 }
 
+TEST_CASE("loads act on the particles that have them, and take memory for their blocks alone", "[motion]") {
+    // 700 discs far from each other: six blocks of at most 128.
+    auto p = springs<plane>(1, 1);
+    p.time_step = 0.125;
+    lacuna::packing<double, 2> apart;
+    for (int k = 0; k < 700; ++k) apart.add({1000.0 * k, 0}, 1);
+    lacuna::simulation<plane> run(apart, p);
+    auto const& store = run.particles();
+    std::size_t const block = store.load_block;
+    for (std::size_t first = 0; first < 700; first += block) REQUIRE(store.loads_of(first) == nullptr);
+    std::size_t const one = 350;
+    run.apply(one, {3, -4});
+    std::size_t found = 0;
+    for (std::size_t first = 0; first < 700; first += block) found += store.loads_of(first) != nullptr;
+    REQUIRE(found == 1);
+    for (int n = 0; n < 4; ++n) run.step();
+    double const m = run.mass(one);
+    for (std::size_t k = 0; k < 700; ++k) {
+        REQUIRE_THAT(run.velocity(k)[0], WithinAbs(k == one ? 1.5 / m : 0.0, 1e-15));
+        REQUIRE_THAT(run.velocity(k)[1], WithinAbs(k == one ? -2.0 / m : 0.0, 1e-15));
+    }
+    auto const inside = [&](std::size_t id) { return std::size_t(store.internal(id)); };
+    REQUIRE(store.applied_force(inside(one))[1] == -4);
+    REQUIRE(store.applied_force(inside(one - 1))[1] == 0);
+}
+
 TEST_CASE("a torque turns a disc, and the orientation is a unit vector", "[motion]") {
     auto p = springs<plane>(1, 1, 0, unit_density(2));
     p.time_step = 0.01;

@@ -490,10 +490,10 @@ TEST_CASE("mass and energy balance in every step while the body moves") {
         for (std::size_t k = 0; k < net.pores(); ++k) {
             double const grown = net.volume[k] - before.volume[k];
             content += net.volume[k] * (net.pressure[k] - before.pressure[k]) / b.p.bulk_modulus + grown -
-                       (net.vapour[k] - before.vapour[k]);
+                       (net.vapour_of(k) - before.vapour_of(k));
             gross += std::fabs(grown);
-            REQUIRE((net.vapour[k] == 0 || net.pressure[k] == -0.5));
-            vapour_seen = std::max(vapour_seen, net.vapour[k]);
+            REQUIRE((net.vapour_of(k) == 0 || net.pressure[k] == -0.5));
+            vapour_seen = std::max(vapour_seen, net.vapour_of(k));
         }
         for (std::size_t t = 0; t < net.open_throats(); ++t) {
             auto const a = std::size_t(net.throat_pore[0][t]);
@@ -548,12 +548,12 @@ TEST_CASE("vapour closes before the pressure rises again") {
     stretch(1.01);
     REQUIRE(flow.network().pressure[0] == -1);
     double const widest = flow.network().volume[0];
-    REQUIRE_THAT(flow.network().vapour[0], WithinRel(widest - v0 - widest / 1000, 1e-9));
+    REQUIRE_THAT(flow.network().vapour_of(0), WithinRel(widest - v0 - widest / 1000, 1e-9));
     stretch(1.005);
     REQUIRE(flow.network().pressure[0] == -1);
-    REQUIRE(flow.network().vapour[0] > 0);
+    REQUIRE(flow.network().vapour_of(0) > 0);
     stretch(1.0);
-    REQUIRE(flow.network().vapour[0] == 0);
+    REQUIRE(flow.network().vapour_of(0) == 0);
     // By hand: to the pressure -1 the liquid grew by V_1 / K_f, at the volume V_1 of the widest pore; the same volume
     // of liquid is pressed in at V_0.
     REQUIRE_THAT(flow.network().pressure[0], WithinRel(widest / v0 - 1, 1e-9));

@@ -227,7 +227,7 @@ TEMPLATE_TEST_CASE("sources keep mass and energy while the body moves", "", expl
         auto const& now = flow.network();
         double content = 0, came = 0;
         for (std::size_t k = 0; k < now.pores(); ++k)
-            content += now.volume[k] - before.volume[k] - (now.vapour[k] - before.vapour[k]) +
+            content += now.volume[k] - before.volume[k] - (now.vapour_of(k) - before.vapour_of(k)) +
                        (substeps == 1 ? now.volume[k] * (now.pressure[k] - before.pressure[k]) / p.bulk_modulus : 0);
         for (std::size_t s = 0; s < 5; ++s) came += now.sources[s].volume - before.sources[s].volume;
         double const gross = flow.ledger().gross_volume;

@@ -321,9 +321,9 @@ TEST_CASE("implicit: tractions are those of the pressures, threads change no bit
     auto const p = body::settings<implicit_solver>();
     auto const one = stirred<implicit_solver>(20, p);
     auto rest = bodies::scattered(71, 6, 8, 0.7, 0.95);
-    auto const forces = rest.tractions(one);
     auto moved = rest;
     bodies::stir(moved, rest, 1.0, 0.002);
+    auto const forces = moved.tractions(one);
     std::vector<bodies::point> expected(rest.x.size());
     for (std::size_t k = 0; k < one.network().pores(); ++k) {
         auto const push = one.pore_tractions(k, moved.points(), moved.r.data());

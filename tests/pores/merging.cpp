@@ -47,7 +47,7 @@ double content(solver const& flow) {
     auto const& net = flow.network();
     double sum = 0;
     for (std::size_t p = 0; p < net.pores(); ++p)
-        sum += net.volume[p] * (1 + net.pressure[p] / flow.settings().bulk_modulus) - net.vapour[p];
+        sum += net.volume[p] * (1 + net.pressure[p] / flow.settings().bulk_modulus) - net.vapour_of(p);
     return sum;
 }
 
@@ -207,7 +207,7 @@ TEST_CASE("a body that moves: clusters join and part, mass and energy are kept, 
                     auto const c = flow.clusters().label(k);
                     volume[c] += old.volume[k];
                     pressure[c] += old.volume[k] * old.pressure[k];
-                    vapour[c] += old.vapour[k];
+                    vapour[c] += old.vapour_of(k);
                 }
                 double balance = 0, gross = 0;
                 for (std::size_t k = 0; k < net.pores(); ++k) {
@@ -216,9 +216,9 @@ TEST_CASE("a body that moves: clusters join and part, mass and energy are kept, 
                     double const wanted = (pressure[c] - 1000 * vapour[c]) / volume[c];
                     double const mixed = std::max(wanted, p.minimum_pressure);
                     double const left = (mixed - wanted) / 1000 * old.volume[k];
-                    balance += net.volume[k] * (net.pressure[k] - mixed) / 1000 + grown - (net.vapour[k] - left);
+                    balance += net.volume[k] * (net.pressure[k] - mixed) / 1000 + grown - (net.vapour_of(k) - left);
                     gross += std::fabs(grown) + net.volume[k];
-                    vapour_seen = std::max(vapour_seen, net.vapour[k]);
+                    vapour_seen = std::max(vapour_seen, net.vapour_of(k));
                 }
                 double const inflow = l.boundary_inflow - totals.boundary_inflow;
                 // Over substeps the pressures pass through means of the volumes, which are not seen here.

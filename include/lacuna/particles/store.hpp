@@ -161,9 +161,8 @@ public:
     }
     /// Force applied from outside, N.
     point applied_force(std::size_t k) const noexcept {
-        rec const load = this->load(k);
         point r{};
-        for (int axis = 0; axis < Dim; ++axis) r[axis] = load[axis];
+        for (int axis = 0; axis < Dim; ++axis) r[axis] = load(k)[axis];
         return r;
     }
 
@@ -259,11 +258,7 @@ private:
     /// Bits of free_: the axes, then the rotation.
     static constexpr unsigned turns = 1u << Dim, free_patterns = 2u << Dim;
     static constexpr double min_normal() { return double(std::numeric_limits<Real>::min()); }
-    static rec unit_quaternion() {
-        rec q(Real(0));
-        q.v[0] = 1;
-        return q;
-    }
+    static rec unit_quaternion() { return rec(typename rec::native{Real(1), Real(0), Real(0), Real(0)}); }
     /// Where the load of a particle is in load_, for which there is room from now on.
     std::size_t place_of_load(std::size_t k) {
         auto& at = loads_at_[k / load_block];

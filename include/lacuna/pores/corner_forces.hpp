@@ -11,7 +11,6 @@
 
 #include <lacuna/core/pack.hpp>
 #include <lacuna/core/records.hpp>
-#include <lacuna/pores/pore_network.hpp>
 
 namespace lacuna {
 
@@ -35,10 +34,11 @@ public:
     /// Groups that one thread handles at a time.
     static constexpr std::size_t chunk_groups = 16;
 
-    /// \param net not bare
+    /// \param net pore_network, not bare
     /// \param run pores of a run: write_met() is called after each
     /// \param streaming whether forces are kept no longer than it takes to sum them up
-    void build(pore_network<Real, Dim> const& net, std::size_t run, bool streaming) {
+    template <class Network>
+    void build(Network const& net, std::size_t run, bool streaming) {
         particles_ = net.particles;
         streaming_ = streaming;
         std::size_t const groups = (particles_ + group_particles - 1) / group_particles;
@@ -96,8 +96,8 @@ public:
 private:
     static constexpr std::size_t pack_reals = corners * force_reals * std::size_t(width);
 
-    template <class Visit>
-    static void for_each_corner(pore_network<Real, Dim> const& net, Visit const& visit) {
+    template <class Network, class Visit>
+    static void for_each_corner(Network const& net, Visit const& visit) {
         for (std::size_t p = 0; p < net.pores(); ++p)
             for (std::size_t c = 0; c < corners; ++c) visit(std::size_t(net.corner[c][p]), p, c);
     }

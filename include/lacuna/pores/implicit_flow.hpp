@@ -104,7 +104,10 @@ public:
     template <bool WithLedger>
     void step(body_column<Real> const& place, Real const* normal_forces, Real dt, int threads = 1,
               record_column<Real>* tractions = nullptr) {
-        if (this->network_.bare()) return advance<WithLedger>(dt, threads);
+        if (this->network_.bare()) {
+            if (tractions) tractions->assign(tractions->size(), record<Real>(Real(0)));
+            return advance<WithLedger>(dt, threads);
+        }
         this->template begin_step<WithLedger>();
         bool const flowing = this->flows() && dt > Real(0);
         this->keep_forces(false);

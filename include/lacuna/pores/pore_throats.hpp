@@ -9,7 +9,6 @@
 
 #include <lacuna/core/pack.hpp>
 #include <lacuna/core/records.hpp>
-#include <lacuna/pores/padded_array.hpp>
 
 namespace lacuna {
 
@@ -22,7 +21,8 @@ public:
     static constexpr int width = native_width<Real>;
 
     /// \param ends pores at side 0 and side 1 of the throats, -1 for none; \param pores how many
-    void build(std::array<padded_array<std::int32_t>, 2> const& ends, std::size_t pores) {
+    template <class Column>
+    void build(std::array<Column, 2> const& ends, std::size_t pores) {
         none_ = std::int32_t(ends[0].size());
         std::size_t const slots = (pores + width - 1) / width * width;
         std::vector<std::int32_t> count(slots, 0);

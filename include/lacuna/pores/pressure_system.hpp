@@ -13,6 +13,7 @@
 #include <Eigen/SparseCore>
 
 #include <lacuna/core/state.hpp>
+#include <lacuna/pores/padded_array.hpp>
 
 namespace lacuna {
 
@@ -72,7 +73,7 @@ public:
 
     /// \param pores how many; \param ends the two pores of each throat, the second -1 for a reservoir
     /// \param throats how many of `ends` count
-    void analyse(std::size_t pores, std::array<std::vector<std::int32_t>, 2> const& ends, std::size_t throats) {
+    void analyse(std::size_t pores, std::array<padded_array<std::int32_t>, 2> const& ends, std::size_t throats) {
         for (std::size_t side = 0; side < 2; ++side)
             end_[side].assign(ends[side].begin(), ends[side].begin() + std::ptrdiff_t(throats));
         auto const count = int(pores);
