@@ -177,6 +177,97 @@ TEST_CASE("the largest displacement since a Verlet list was built", "[neighbors]
     CHECK(list.largest_displacement(lacuna::view_points(points)) == std::numeric_limits<double>::infinity());
 }
 
+TEST_CASE("how much closer particles have come that are no pair of a Verlet list", "[neighbors]") {
+    // In a row: 0-1 is listed (gap 0.4), 1-2 (gap 1.2) and 3, 4 are not; skin 1, margin 0.1: listed up to a gap of 1.1.
+    std::vector<lacuna::vec<double, 2>> points{{0, 0}, {2.4, 0}, {5.6, 0}, {20, 0}, {40, 0}};
+    std::vector<double> const radii{1, 1, 1, 1, 1};
+    lacuna::verlet_list<lacuna::cell_grid<double, 2>> list({.skin = 1, .margin = 0.1});
+    list.build(lacuna::view_points(points), radii);
+    auto const approach = [&] { return list.largest_approach(lacuna::view_points(points)); };
+    REQUIRE(list.pairs() == std::vector<neighbor_pair>{{0, 1}});
+    CHECK(approach() == 0);
+    points[3][1] = 0.2;
+    CHECK(approach() == 0.2); // less than a quarter of the skin: no more is asked
+    points[3][1] = 0.75;      // alone: another may have come closer by a quarter of the skin
+    CHECK(approach() == 0.5);
+    points[0][0] = -0.6; // of a listed pair: as far as that is concerned it may move as it likes
+    points[1][0] = 1.8;
+    CHECK(approach() == 0.5);
+    points[0][0] = 0;
+    points[1][0] = 2.4 + 0.6; // towards 2, which moves towards it: the gap is 0.2 of the 1.1 that are listed
+    points[2][0] = 5.6 - 0.4;
+    CHECK_THAT(approach(), Catch::Matchers::WithinAbs(0.5, 1e-15)); // 0.9 / 2, less than what 3 may do
+    points[3][1] = 0;
+    CHECK_THAT(approach(), Catch::Matchers::WithinAbs(0.45, 1e-15));
+    points[4][0] = std::numeric_limits<double>::quiet_NaN();
+    CHECK(std::isnan(approach()));
+}
+
+namespace {
+
+/// Particles of which few are fast: a list that is kept as long as the approach allows misses no pair within the margin.
+template <class Search>
+long long builds_by_approach(std::uint64_t seed, bool by_approach) {
+    using Real = typename Search::real_type;
+    constexpr int Dim = Search::dim;
+    std::mt19937_64 rng(seed);
+    std::size_t const n = 400;
+    Real const skin = 1, margin = Real(0.05);
+    std::vector<lacuna::vec<Real, Dim>> points, velocities;
+    std::vector<Real> radii;
+    Real fastest = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+        points.push_back(clouds::random_point<Real, Dim>(rng, Dim == 2 ? 60 : 18));
+        auto v = clouds::random_point<Real, Dim>(rng, 1);
+        for (int axis = 0; axis < Dim; ++axis) v[axis] = (v[axis] - Real(0.5)) * Real(i % 40 == 0 ? 0.08 : 0.004);
+        velocities.push_back(v);
+        radii.push_back(Real(0.6 + 0.6 * clouds::uniform(rng)));
+        fastest = std::max(fastest, norm(v));
+    }
+    lacuna::verlet_list<Search> list({.skin = skin, .margin = margin});
+    list.build(lacuna::view_points(points), radii);
+    Real path = 0;
+    int missed = 0, close = 0;
+    for (int step = 0; step < 150; ++step) {
+        for (std::size_t i = 0; i < n; ++i) points[i] += velocities[i];
+        path += fastest * Real(1.0001);
+        if (path > skin / 2) {
+            auto const view = lacuna::view_points(points);
+            Real const far = list.largest_displacement(view);
+            path = by_approach ? list.largest_approach(view) : far;
+            if (path > far) ++missed;
+            if (path > skin * Real(0.45)) {
+                list.build(view, radii);
+                path = 0;
+            }
+        }
+        std::vector<std::vector<bool>> listed(n, std::vector<bool>(n, false));
+        for (auto const& p : list.pairs()) listed[std::size_t(p.i)][std::size_t(p.j)] = true;
+        for (std::size_t i = 0; i < n; ++i)
+            for (std::size_t j = i + 1; j < n; ++j)
+                if (distance(points[i], points[j]) <= radii[i] + radii[j] + margin) {
+                    ++close;
+                    missed += !listed[i][j];
+                }
+    }
+    CHECK(missed == 0);
+    CHECK(close > 1000);
+    return list.build_count();
+}
+
+} // namespace
+
+TEST_CASE("a Verlet list is kept while the particles that it may miss are apart", "[neighbors]") {
+    long long kept = 0, without = 0;
+    for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+        kept += builds_by_approach<lacuna::cell_grid<double, 2>>(seed, true);
+        without += builds_by_approach<lacuna::cell_grid<double, 2>>(seed, false);
+        kept += builds_by_approach<lacuna::cell_grid<float, 3>>(seed, true);
+        without += builds_by_approach<lacuna::cell_grid<float, 3>>(seed, false);
+    }
+    CHECK(kept < without);
+}
+
 TEST_CASE("a Verlet list refuses a bad skin or margin", "[neighbors]") {
     using list_type = lacuna::verlet_list<lacuna::brute_force<double, 2>>;
     double const nan = std::numeric_limits<double>::quiet_NaN();

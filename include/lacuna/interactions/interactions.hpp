@@ -86,7 +86,7 @@ public:
             path_ += moved;
             if (!(path_ <= neighbors_.settings().skin / 2)) {
                 // The sum of the largest steps over-estimates every path: measure before searching.
-                path_ = neighbors_.largest_displacement(store.positions());
+                path_ = neighbors_.largest_approach(store.positions());
                 // To measure costs little beside a search: it pays where a few steps are gained.
                 if (!(path_ <= neighbors_.settings().skin * Real(0.46))) {
                     neighbors_.build(store.positions(), store.radii());

@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
 #include <utility>
+#include <vector>
 
 #include <lacuna/core/state.hpp>
 #include <lacuna/neighbors/search.hpp>
@@ -99,6 +104,38 @@ public:
         return std::sqrt(largest);
     }
 
+    /// Half of how much two particles that are no pair of the list have come closer, at most, m: the list holds all pairs
+    /// while no particle moves further than what this leaves of skin / 2. At most largest_displacement(); less where
+    /// only some have moved far, and past their neighbours.
+    real_type largest_approach(points_type const& points) {
+        real_type const largest = largest_displacement(points), far = parameters_.skin / 4;
+        fast_.clear();
+        if (!(largest > far) || !std::isfinite(largest) || periodic()) return largest;
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            if (squared_norm(points[i] - reference_[i]) > far * far) fast_.push_back(std::int32_t(i));
+            // Where many move there is nothing to gain.
+            if (fast_.size() > 64 + points.size() / 16) return largest;
+        }
+        // If one of them has moved by less than `far`.
+        real_type approach = largest + far;
+        real_type const listed = parameters_.margin + parameters_.skin;
+        // Two that were further apart have not met, nor will before one of them has moved by another half of the skin.
+        real_type const near = real_type(1.01) * (2 * largest_radius_ + listed + 2 * largest);
+        auto const was = [&](std::size_t k) { return reference_[std::size_t(fast_[k])]; };
+        int const along = widest_axis();
+        std::sort(fast_.begin(), fast_.end(), [&](std::int32_t a, std::int32_t b) {
+            return reference_[std::size_t(a)][along] < reference_[std::size_t(b)][along];
+        });
+        for (std::size_t a = 0; a < fast_.size(); ++a)
+            for (std::size_t b = a + 1; b < fast_.size() && was(b)[along] - was(a)[along] <= near; ++b) {
+                auto const i = std::size_t(fast_[a]), j = std::size_t(fast_[b]);
+                real_type const before = norm(was(b) - was(a)), touching = radii_[i] + radii_[j];
+                if (before <= near && before > touching + listed)
+                    approach = std::max(approach, touching + listed - norm(points[j] - points[i]));
+            }
+        return std::min(approach / 2, largest);
+    }
+
     /// Builds the list for these positions [m] and radii [m] in any case.
     void build(points_type const& points, std::span<real_type const> radii) {
         built_ = false;
@@ -112,6 +149,7 @@ public:
         reference_.resize(points.size());
         for (std::size_t i = 0; i < points.size(); ++i) reference_[i] = points[i];
         radii_.assign(radii.begin(), radii.end());
+        largest_radius_ = largest;
         built_ = true;
         ++build_count_;
     }
@@ -134,11 +172,31 @@ public:
     }
 
 private:
+    /// Along which the particles in fast_ are furthest from each other.
+    int widest_axis() const noexcept {
+        int widest = 0;
+        real_type most = 0;
+        for (int axis = 0; axis < dim; ++axis) {
+            auto const [low, high] = std::minmax_element(fast_.begin(), fast_.end(), [&](std::int32_t a, std::int32_t b) {
+                return reference_[std::size_t(a)][axis] < reference_[std::size_t(b)][axis];
+            });
+            real_type const width = reference_[std::size_t(*high)][axis] - reference_[std::size_t(*low)][axis];
+            if (width > most) widest = axis;
+            most = std::max(most, width);
+        }
+        return widest;
+    }
+    static constexpr bool periodic() noexcept {
+        return requires(Search s, vec<real_type, dim> p) { s.set_period(p); };
+    }
+
     parameters parameters_;
     Search search_;
     std::vector<neighbor_pair> pairs_;
     std::vector<vec<real_type, dim>> reference_;
     std::vector<real_type> radii_;
+    std::vector<std::int32_t> fast_; // particles that have moved far
+    real_type largest_radius_ = 0;
     long long build_count_ = 0;
     bool built_ = false;
 };
