@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <vector>
 
@@ -12,49 +13,75 @@
 
 namespace lacuna {
 
-/// Makes a table of the candidates of a neighbour list without the bonded pairs, each with the history it had, or a
-/// new one.
+/// The candidates of one chunk that are not bonded, as pair_table::merge() takes them.
+template <class Bonds>
+class unbonded_candidates {
+public:
+    /// \param candidates sorted by (i, j)
+    unbonded_candidates(std::vector<neighbor_pair> const& candidates, Bonds const& bonds, int chunk) noexcept
+        : bonds_(bonds), begin_(Bonds::first_of_chunk(candidates, chunk)),
+          end_(Bonds::first_of_chunk(candidates, chunk + 1)), bonds_begin_(bonds.first_slot(chunk)),
+          bonds_end_(bonds.first_slot(chunk + 1)) {}
+
+    template <class Visit>
+    void forward(Visit const& visit) const {
+        std::size_t bond = bonds_begin_;
+        for (auto pair = begin_; pair != end_; ++pair) {
+            while (bond < bonds_end_ && bonds_.before(bond, *pair)) ++bond;
+            if (bond == bonds_end_ || !bonds_.is(bond, *pair)) visit(*pair);
+        }
+    }
+    /// Until visit() returns false.
+    template <class Visit>
+    void backward(Visit const& visit) const {
+        std::size_t end = bonds_end_;
+        for (auto pair = end_; pair != begin_;) {
+            --pair;
+            while (end > bonds_begin_ && !bonds_.before(end - 1, *pair) && !bonds_.is(end - 1, *pair)) --end;
+            if (end > bonds_begin_ && bonds_.is(end - 1, *pair)) continue;
+            if (!visit(*pair)) return;
+        }
+    }
+
+private:
+    Bonds const& bonds_;
+    std::vector<neighbor_pair>::const_iterator begin_, end_;
+    std::size_t bonds_begin_, bonds_end_;
+};
+
+/// Makes the pairs of a table the candidates of a neighbour list without the bonded ones. Each has the history it had,
+/// or a new one. No allocation while they fit into the table's chunks.
 /// \param candidates sorted by (i, j)
 /// \param bonds the table of bonds
-/// \param old the table until now
 /// \param added pairs that were in no table of contacts, with a history; sorted by (i, j)
-/// \param fresh replaced
+/// \param contacts the table
 /// \param store of the particles
 /// \param threads how many may work on it
 /// \param make callable neighbor_pair -> entry, for pairs that were not known before
 template <class Bonds, class Contacts, class Real, int Dim, class Make>
-void merge_contacts(std::vector<neighbor_pair> const& candidates, Bonds const& bonds, Contacts const& old,
-                    std::vector<typename Contacts::entry> const& added, Contacts& fresh,
+void merge_contacts(std::vector<neighbor_pair> const& candidates, Bonds const& bonds,
+                    std::vector<typename Contacts::entry> const& added, Contacts& contacts,
                     particle_store<Real, Dim> const& store, int threads, Make const& make) {
-    auto const for_each_new = [&](int c, auto const& visit) {
-        std::size_t bond = bonds.first_slot(c);
-        std::size_t const bonds_end = bonds.first_slot(c + 1);
-        auto const end = Contacts::first_of_chunk(candidates, c + 1);
-        for (auto pair = Contacts::first_of_chunk(candidates, c); pair != end; ++pair) {
-            while (bond < bonds_end && bonds.before(bond, *pair)) ++bond;
-            if (bond == bonds_end || !bonds.is(bond, *pair)) visit(*pair);
-        }
+    auto const make_or_take = [&](neighbor_pair const& pair) {
+        auto const found = std::partition_point(added.begin(), added.end(), [&](auto const& e) {
+            return e.i < pair.i || (e.i == pair.i && e.j < pair.j);
+        });
+        return found != added.end() && found->i == pair.i && found->j == pair.j ? *found : make(pair);
     };
-    int const chunks = Contacts::chunks_of(store.size());
-    fresh.lay_out(chunks, threads, [&](int c) {
+    auto const merge = [&] {
+        std::atomic<bool> fits = true;
+        for_each_chunk(Contacts::chunks_of(store.size()), threads, [&](int c) {
+            if (!contacts.merge(c, unbonded_candidates(candidates, bonds, c), store, make_or_take)) fits = false;
+        });
+        return bool(fits);
+    };
+    if (merge()) return;
+    contacts.make_room(store, [&](int c) {
         std::size_t count = 0;
-        for_each_new(c, [&](neighbor_pair const&) { ++count; });
+        unbonded_candidates(candidates, bonds, c).forward([&](neighbor_pair const&) { ++count; });
         return count;
     });
-    for_each_chunk(chunks, threads, [&](int c) {
-        std::size_t known = old.first_slot(c);
-        std::size_t const known_end = old.first_slot(c + 1);
-        auto other = Contacts::first_of_chunk(added, c);
-        fresh.fill(c, store, [&](auto const& push) {
-            for_each_new(c, [&](neighbor_pair const& pair) {
-                while (known < known_end && old.before(known, pair)) ++known;
-                if (known < known_end && old.is(known, pair)) return push(old.get(known));
-                while (other != added.end() && (other->i < pair.i || (other->i == pair.i && other->j < pair.j))) ++other;
-                bool const found = other != added.end() && other->i == pair.i && other->j == pair.j;
-                push(found ? *other : make(pair));
-            });
-        });
-    });
+    merge();
 }
 
 /// History of a pair that becomes a candidate: it touches at r_i + r_j, or, within `tolerance` times the smaller

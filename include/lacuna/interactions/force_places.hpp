@@ -37,19 +37,25 @@ public:
     template <class Table>
     void build(Table const& table, std::size_t particles, chunk_spans const& spans, bool streaming) {
         at_.resize(std::size_t(table.chunks()));
+        // Packs in use are counted on from chunk to chunk: those to spare between them need no place.
+        std::size_t in_use = 0;
+        for (int c = 0; c < table.chunks(); ++c) {
+            at_[std::size_t(c)].origin = table.first_pack(c) - in_use;
+            in_use = end_of(table, c);
+        }
         count_ = 0;
         std::size_t const window = streaming ? longest_use(table, particles) : 0;
         for (int s = 0; s < spans.count(); ++s) {
             int const end = s + 1 < spans.count() ? spans.begin(s + 1) : table.chunks();
             int const kept_end = streaming ? std::min(spans.frontier_end(s), end) : end;
             for (int c = spans.begin(s); c < end; ++c) {
-                std::size_t const packs = table.end_pack(c) - table.first_pack(c);
-                if (c < kept_end) {
-                    at_[std::size_t(c)] = {count_, table.first_pack(c), std::numeric_limits<std::size_t>::max()};
-                    count_ += packs;
-                } else {
-                    at_[std::size_t(c)] = {count_, 0, window};
-                }
+                auto& at = at_[std::size_t(c)];
+                at.begin = count_;
+                at.kept = window;
+                if (c >= kept_end) continue;
+                at.origin = table.first_pack(c);
+                at.kept = std::numeric_limits<std::size_t>::max();
+                count_ += table.end_pack(c) - table.first_pack(c);
             }
             if (kept_end < end) count_ += window;
         }
@@ -78,14 +84,23 @@ private:
         std::size_t begin, origin, kept;
     };
 
+    /// Number of packs in use up to the end of a chunk.
+    template <class Table>
+    std::size_t end_of(Table const& table, int chunk) const noexcept {
+        return table.end_pack(chunk) - at_[std::size_t(chunk)].origin;
+    }
     /// Packs from one whose force is still needed to the end of the chunk that needs it, at most.
     template <class Table>
-    static std::size_t longest_use(Table const& table, std::size_t particles) noexcept {
+    std::size_t longest_use(Table const& table, std::size_t particles) const noexcept {
         std::size_t most = 1;
-        for (int c = 0; c < table.chunks(); ++c) most = std::max(most, table.end_pack(c) - table.first_pack(c));
-        for (std::size_t s = 0; s < table.slots(); ++s)
-            if (!table.is_filler(s, particles))
-                most = std::max(most, table.end_pack(int(table.j(s) / Table::chunk_particles)) - s / table.width);
+        for (int c = 0; c < table.chunks(); ++c) {
+            std::size_t const first = table.first_pack(c), end = table.end_pack(c);
+            most = std::max(most, end - first);
+            for (std::size_t s = first * table.width; s < end * table.width; ++s)
+                if (!table.is_filler(s, particles))
+                    most = std::max(most, end_of(table, int(table.j(s) / Table::chunk_particles)) -
+                                              (s / table.width - at_[std::size_t(c)].origin));
+        }
         return most;
     }
 

@@ -83,13 +83,13 @@ public:
     /// The force of one pair.
     template <int Which>
     Real* of(int chunk, std::size_t slot) noexcept {
-        return forces_.of((offset<Which>() + places_[Which](chunk, slot / width)) * width + slot % width);
+        return forces_.of(place_of<Which>(chunk, slot));
     }
     /// Offset in column() of the force in a slot of a table; -1 when forces are not kept.
     template <int Which>
-    std::int32_t find(std::int32_t slot) const noexcept {
+    std::int32_t find(int chunk, std::int32_t slot) const noexcept {
         if (streaming_) return -1;
-        return (std::int32_t(offset<Which>()) * width + slot) * force_rows<Real, Dim>::reals_per_pair;
+        return std::int32_t(place_of<Which>(chunk, std::size_t(slot))) * force_rows<Real, Dim>::reals_per_pair;
     }
     /// \}
 
@@ -185,6 +185,10 @@ private:
     template <int Which>
     std::size_t offset() const noexcept {
         return Which == 0 ? 0 : places_[0].count();
+    }
+    template <int Which>
+    std::size_t place_of(int chunk, std::size_t slot) const noexcept {
+        return (offset<Which>() + places_[Which](chunk, slot / width)) * width + slot % width;
     }
     /// Largest distance, in chunks, from a pair's first particle to its second.
     template <class Table>

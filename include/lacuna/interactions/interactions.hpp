@@ -214,9 +214,9 @@ public:
     std::int32_t find_force(std::int32_t i, std::int32_t j) const noexcept {
         if (i > j) std::swap(i, j);
         std::int32_t slot = bonds_.find(i, j);
-        if (slot >= 0) return forces_.template find<0>(slot);
+        if (slot >= 0) return forces_.template find<0>(i / chunk_particles, slot);
         slot = contacts_.find(i, j);
-        return slot >= 0 ? forces_.template find<1>(slot) : -1;
+        return slot >= 0 ? forces_.template find<1>(i / chunk_particles, slot) : -1;
     }
     Real const* force_column() const noexcept { return forces_.column(); }
     /// Place in normal_forces() of the normal force of the pair (i, j), internal indices in any order; 0 if it is no pair.
@@ -263,12 +263,12 @@ private:
             std::sort(broken_.begin(), broken_.end(), pair_before<contact_entry>);
         }
         if constexpr (!is_absent<ContactLaw>) {
-            std::swap(contacts_, old_contacts_);
-            merge_contacts(neighbors_.pairs(), bonds_, old_contacts_, broken_, contacts_, store, forces_.threads(),
-                           [&](neighbor_pair const& pair) {
-                               return contact_entry{pair.i, pair.j, parameter_row(store, pair.i, pair.j), -1,
-                                                    first_history<ContactLaw>(store, pair, first ? parameters_.initial_contact_tolerance : 0)};
-                           });
+            double const tolerance = first ? parameters_.initial_contact_tolerance : 0;
+            auto const make = [&](neighbor_pair const& pair) {
+                return contact_entry{pair.i, pair.j, parameter_row(store, pair.i, pair.j), -1,
+                                     first_history<ContactLaw>(store, pair, tolerance)};
+            };
+            merge_contacts(neighbors_.pairs(), bonds_, broken_, contacts_, store, forces_.threads(), make);
         }
         broken_.clear();
         build_rows(store);
@@ -318,7 +318,7 @@ private:
     verlet_list<search_type> neighbors_;
     Real path_ = 0;
     bond_table bonds_;
-    contact_table contacts_, old_contacts_; ///< the old ones make room for the next table
+    contact_table contacts_;
     force_store<Real, Dim> forces_;
     std::vector<Real> moments_, contact_moments_; ///< on the first of each pair, by slot; of laws with moments only
     std::vector<bond_record> bond_records_;

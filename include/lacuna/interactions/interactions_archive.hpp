@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -27,10 +28,26 @@ struct interactions_archive {
         for (auto const& record : pairs.bond_records_) states.push_back(std::int8_t(record.state));
         ar(pairs.neighbors_, pairs.path_, bonds, fixed_length{states}, pairs.broken_);
         if constexpr (Archive::is_loading::value) rebuild(pairs, store, bonds, states);
-        ar(pairs.bonds_.states(), pairs.contacts_.states());
+        apply_states(ar, pairs.bonds_);
+        apply_states(ar, pairs.contacts_);
     }
 
 private:
+    /// The histories of a table's packs, without those to spare: how many these are is no part of the state.
+    template <class Archive, class Table>
+    static void apply_states(Archive& ar, Table& table) {
+        auto const for_each = [&](auto const& visit) {
+            std::size_t count = 0;
+            for (int c = 0; c < table.chunks(); ++c)
+                for (std::size_t p = table.first_pack(c); p < table.end_pack(c); ++p) visit(count++, p);
+            return count;
+        };
+        auto states = table.states();
+        states.resize(for_each([&](std::size_t k, std::size_t p) { states.store(k, states.load(p)); }));
+        ar(states);
+        if constexpr (Archive::is_loading::value)
+            for_each([&](std::size_t k, std::size_t p) { table.states().store(p, states.load(k)); });
+    }
     /// The tables of the state that is being read, still without its histories.
     template <class Interactions, class Store>
     static void rebuild(Interactions& pairs, Store const& store, std::vector<std::int32_t> const& bonds,
@@ -55,10 +72,11 @@ private:
                           "the contact of a broken bond");
         pairs.assign_bonds(store, left);
         using contacts = typename Interactions::contact_table;
-        merge_contacts(pairs.neighbors_.pairs(), pairs.bonds_, contacts(), {}, pairs.contacts_, store, 1,
-                       [&](neighbor_pair const& pair) {
-                           return typename contacts::entry{pair.i, pair.j, pairs.parameter_row(store, pair.i, pair.j), -1, {}};
-                       });
+        pairs.contacts_ = contacts();
+        auto const make = [&](neighbor_pair const& pair) {
+            return typename contacts::entry{pair.i, pair.j, pairs.parameter_row(store, pair.i, pair.j), -1, {}};
+        };
+        merge_contacts(pairs.neighbors_.pairs(), pairs.bonds_, {}, pairs.contacts_, store, 1, make);
         pairs.build_rows(store);
         pairs.forces_.forget();
     }

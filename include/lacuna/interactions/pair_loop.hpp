@@ -207,17 +207,19 @@ template <pair_kind Kind, bool WithEnergy, class Law, class Damping, class Domai
     constexpr bool looks_ahead = Dim == 2;
     seen_pair<lanes, Dim> next{};
     std::size_t const first = table.first_pack(chunk), end = table.end_pack(chunk);
+    // Beyond the end go the packs of the next chunk, behind those that this one has to spare.
+    auto const later = [end, spare = table.first_pack(chunk + 1) - end](std::size_t p) { return p < end ? p : p + spare; };
     if (looks_ahead && first < end) next = sight(first);
     for (std::size_t p = first; p < end; ++p) {
         std::size_t const slot = p * W;
         if (fetches) {
             ahead.fetch();
-            table.fetch(p + packs_ahead);
+            table.fetch(later(p + packs_ahead));
             if constexpr (Dim == 3)
-                if (p + packs_ahead / 2 < table.packs()) {
-                    std::uint32_t const* later = table.j_records() + (p + packs_ahead / 2) * W;
-                    fetch_records<W>(store.bodies().data(), later);
-                    for (int k = 0; k < W; ++k) __builtin_prefetch(store.surface_speeds().data() + later[k] / 2);
+                if (std::size_t const q = later(p + packs_ahead / 2); q < table.packs()) {
+                    std::uint32_t const* seconds = table.j_records() + q * W;
+                    fetch_records<W>(store.bodies().data(), seconds);
+                    for (int k = 0; k < W; ++k) __builtin_prefetch(store.surface_speeds().data() + seconds[k] / 2);
                 }
         }
         auto [pair, frame] = looks_ahead ? next : sight(p);

@@ -4,20 +4,22 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <lacuna/core/fields.hpp>
-#include <lacuna/core/parallel.hpp>
 #include <lacuna/core/records.hpp>
+#include <lacuna/laws/pair_motion.hpp>
 
 namespace lacuna {
 
 /// The pairs to which one law applies, with what the law remembers, in the order in which the step visits them.
 ///
 /// Pairs are sorted by (i, j), i < j, and cut into chunks: chunk c holds the pairs whose i lies in the c-th run of
-/// `chunk_particles` particles. A chunk starts with a new pack; the last pack of a chunk is filled up with pairs
-/// of the store's two ghosts.
+/// `chunk_particles` particles. A chunk has a range of packs of its own: first those in use, the last of which is filled
+/// up with pairs of the store's two ghosts, then packs to spare, all of them such pairs.
 template <class Law, class Real, int Dim>
 class pair_table {
 public:
@@ -28,71 +30,100 @@ public:
     using history_of = typename Law::template history<T, Dim>;
     using history = history_of<Real>;
 
+    /// Whether pairs have numbers.
+    static constexpr bool labelled = bond_law<Law, Dim>;
+
     struct entry {
         std::int32_t i, j;      ///< internal indices, i < j
         std::int32_t parameter; ///< row of the parameter table
-        std::int32_t label;     ///< number of the bond; not used for contacts
+        std::int32_t label;     ///< number of the bond; contacts have none, -1
         history state;
     };
 
-    /// Replaces all pairs. No allocation once the table was as large before.
+    /// Replaces all pairs; nothing to spare.
     /// \param entries sorted by (i, j)
     /// \param store particle_store of the particles, with the ghosts
     template <class Store>
     void assign(std::span<entry const> entries, Store const& store) {
-        int const chunks = chunks_of(store.size());
         auto const first = [&](int c) { return first_of_chunk(entries, c); };
-        lay_out(chunks, 1, [&](int c) { return std::size_t(first(c + 1) - first(c)); });
-        for (int c = 0; c < chunks; ++c)
+        lay_out(chunks_of(store.size()), [&](int c) { return packs_for(std::size_t(first(c + 1) - first(c))); });
+        for (int c = 0; c < chunks(); ++c)
             fill(c, store, [&](auto const& push) {
                 for (auto e = first(c); e != first(c + 1); ++e) push(*e);
             });
     }
 
-    /// Makes room for `count(c)` pairs in each chunk c; their values are any until fill() has written them.
-    /// \param chunks of the particles
-    /// \param threads how many may call count
-    /// \param count callable chunk -> number of pairs
-    template <class Count>
-    void lay_out(int chunks, int threads, Count const& count) {
-        chunk_begin_.assign(std::size_t(chunks) + 1, 0);
-        for_each_chunk(chunks, threads, [&](int c) { chunk_begin_[std::size_t(c) + 1] = count(c); });
-        count_ = 0;
-        for (std::size_t c = 0; c < std::size_t(chunks); ++c) {
-            count_ += chunk_begin_[c + 1];
-            chunk_begin_[c + 1] = chunk_begin_[c] + (chunk_begin_[c + 1] + width - 1) / width;
-        }
-        resize();
+    /// Makes the pairs of a chunk those of `wanted`, in place. Pairs that are there already keep what the law remembers.
+    /// Chunks are independent of each other.
+    /// \param wanted has forward(visit) and backward(visit), which call visit(pair) for each pair as sorted by (i, j);
+    ///        backward only until it returns false
+    /// \param make callable pair -> entry, for pairs that are not there
+    /// \return whether there is room; if not, pairs that are not wanted have gone, and none has come: make_room() is due
+    template <class Wanted, class Store, class Make>
+    bool merge(int chunk, Wanted const& wanted, Store const& store, Make const& make) {
+        if (chunk >= chunks()) return false;
+        std::size_t const first = first_slot(chunk), old_end = first + chunk_pairs_[std::size_t(chunk)];
+        std::size_t known = first, kept = first, end = first;
+        wanted.forward([&](auto const& pair) {
+            ++end;
+            while (known < old_end && before(known, pair)) ++known;
+            if (known == old_end || !is(known, pair)) return;
+            if (known != kept) move(known, kept);
+            ++known, ++kept;
+        });
+        bool const fits = end <= first_slot(chunk + 1), same = kept == old_end && kept == end;
+        if (!fits) end = kept;
+        // From the back, so that none is overwritten that has yet to move. Once as many are left as there are places, these
+        // stand where they should.
+        if (std::size_t slot = end; slot != kept)
+            wanted.backward([&](auto const& pair) {
+                --slot;
+                if (kept > first && is(kept - 1, pair))
+                    move(--kept, slot);
+                else
+                    put(slot, make(pair));
+                return slot != kept;
+            });
+        chunk_pairs_[std::size_t(chunk)] = end - first;
+        fill_up(chunk, std::max(packs_for(old_end - first), packs_for(end - first)), store);
+        if (!same) look_for_rows(chunk);
+        return fits;
     }
-    /// Writes the pairs of a chunk, as many as lay_out() was told. Chunks are independent of each other.
-    /// \param chunk which
-    /// \param store of the particles, with the ghosts
-    /// \param write callable that calls push(entry) for each, sorted by (i, j)
-    template <class Store, class Write>
-    void fill(int chunk, Store const& store, Write const& write) {
-        std::size_t slot = first_pack(chunk) * width;
-        write([&](entry const& e) { put(slot++, e); });
-        close(chunk, slot, store);
+    /// Lays the table out anew, its pairs as they are, with packs to spare in every chunk.
+    /// \param store particle_store of the particles, with the ghosts
+    /// \param count callable chunk -> number of pairs for which there is to be room, not less than it has
+    template <class Store, class Count>
+    void make_room(Store const& store, Count const& count) {
+        pair_table roomy;
+        roomy.lay_out(chunks_of(store.size()), [&](int c) {
+            std::size_t const packs = packs_for(count(c));
+            return packs + packs / 16 + 1;
+        });
+        for (int c = 0; c < roomy.chunks(); ++c)
+            roomy.fill(c, store, [&](auto const& push) {
+                if (c >= chunks()) return;
+                for (std::size_t k = 0; k < chunk_pairs_[std::size_t(c)]; ++k) push(get(first_slot(c) + k));
+            });
+        *this = std::move(roomy);
     }
 
-    /// Leaves out the pairs for which keep(slot) is false.
+    /// Leaves out the pairs for which keep(slot) is false, and all packs to spare.
     template <class Store, class Keep>
     void filter(Store const& store, Keep const& keep) {
         // Towards the front, within the table itself: a pair never moves beyond where it was.
-        std::size_t slot = 0, old_first = 0;
-        count_ = 0;
+        std::size_t packs = 0;
         for (int c = 0; c < chunks(); ++c) {
-            std::size_t const old_end = end_pack(c) * width;
-            chunk_begin_[std::size_t(c)] = slot / width;
-            for (std::size_t s = old_first; s < old_end; ++s) {
-                if (is_filler(s, store.size()) || !keep(s)) continue;
-                put(slot++, get(s));
-                ++count_;
-            }
-            slot = close(c, slot, store);
-            old_first = old_end;
+            std::size_t const old_first = first_slot(c), old_end = old_first + chunk_pairs_[std::size_t(c)];
+            std::size_t slot = packs * width;
+            chunk_begin_[std::size_t(c)] = packs;
+            for (std::size_t s = old_first; s < old_end; ++s)
+                if (keep(s)) move(s, slot++);
+            chunk_pairs_[std::size_t(c)] = slot - packs * width;
+            packs = end_pack(c);
+            fill_up(c, packs - first_pack(c), store);
+            look_for_rows(c);
         }
-        chunk_begin_.back() = slot / width;
+        chunk_begin_.back() = packs;
         resize();
     }
 
@@ -108,10 +139,15 @@ public:
     /// Number of slots, fillers included.
     std::size_t slots() const noexcept { return i_.size(); }
     /// Number of pairs, without fillers.
-    std::size_t size() const noexcept { return count_; }
-    int chunks() const noexcept { return int(chunk_begin_.size()) - 1; }
+    std::size_t size() const noexcept {
+        return std::accumulate(chunk_pairs_.begin(), chunk_pairs_.end(), std::size_t(0));
+    }
+    int chunks() const noexcept { return int(chunk_pairs_.size()); }
     std::size_t first_pack(int chunk) const noexcept { return chunk_begin_[std::size_t(chunk)]; }
-    std::size_t end_pack(int chunk) const noexcept { return chunk_begin_[std::size_t(chunk) + 1]; }
+    /// End of the packs of a chunk that are in use.
+    std::size_t end_pack(int chunk) const noexcept {
+        return first_pack(chunk) + packs_for(chunk_pairs_[std::size_t(chunk)]);
+    }
 
     /// First slot of a chunk; of one beyond the last, slots().
     std::size_t first_slot(int chunk) const noexcept { return chunk_begin_[std::size_t(std::min(chunk, chunks()))] * width; }
@@ -138,7 +174,11 @@ public:
     std::uint32_t const* i_records() const noexcept { return i_.data(); }
     std::uint32_t const* j_records() const noexcept { return j_.data(); }
     std::int32_t const* parameter() const noexcept { return parameter_.data(); }
-    std::int32_t label(std::size_t slot) const noexcept { return label_[slot]; }
+    std::int32_t label(std::size_t slot) const noexcept
+        requires labelled
+    {
+        return label_[slot];
+    }
     bool is_filler(std::size_t slot, std::size_t particles) const noexcept { return std::size_t(i_[slot]) >= stride * particles; }
     /// The parameter row that all pairs of a pack share, or -1.
     std::int32_t uniform_parameter(std::size_t p) const noexcept { return uniform_[p]; }
@@ -162,48 +202,78 @@ public:
         return low < i_.size() && is(low, wanted) ? std::int32_t(low) : -1;
     }
     entry get(std::size_t slot) const noexcept {
-        return {i(slot), j(slot), parameter_[slot], label_[slot], state_.get(slot)};
+        entry e{i(slot), j(slot), parameter_[slot], -1, state_.get(slot)};
+        if constexpr (labelled) e.label = label_[slot];
+        return e;
     }
 
 private:
+    static std::size_t packs_for(std::size_t pairs) noexcept { return (pairs + width - 1) / width; }
+    /// Makes the ranges of the chunks, all empty.
+    /// \param packs callable chunk -> length of its range
+    template <class Packs>
+    void lay_out(int chunks, Packs const& packs) {
+        chunk_pairs_.assign(std::size_t(chunks), 0);
+        chunk_begin_.assign(std::size_t(chunks) + 1, 0);
+        for (int c = 0; c < chunks; ++c) chunk_begin_[std::size_t(c) + 1] = chunk_begin_[std::size_t(c)] + packs(c);
+        resize();
+    }
     void resize() {
         std::size_t const packs = chunk_begin_.back(), slots = packs * width;
         for (auto* indices : {&i_, &j_}) resize_with_room(*indices, slots);
-        for (auto* numbers : {&parameter_, &label_}) resize_with_room(*numbers, slots);
+        resize_with_room(parameter_, slots);
+        if constexpr (labelled) resize_with_room(label_, slots);
         resize_with_room(uniform_, packs);
         state_.resize(packs);
+    }
+    /// Writes the pairs of an empty chunk.
+    /// \param write callable that calls push(entry) for each, sorted by (i, j)
+    template <class Store, class Write>
+    void fill(int chunk, Store const& store, Write const& write) {
+        std::size_t const first = first_slot(chunk);
+        auto& pairs = chunk_pairs_[std::size_t(chunk)];
+        write([&](entry const& e) { put(first + pairs++, e); });
+        fill_up(chunk, first_pack(chunk + 1) - first_pack(chunk), store);
+        look_for_rows(chunk);
     }
     void put(std::size_t slot, entry const& e) noexcept {
         i_[slot] = stride * std::uint32_t(e.i);
         j_[slot] = stride * std::uint32_t(e.j);
         parameter_[slot] = e.parameter;
-        label_[slot] = e.label;
+        if constexpr (labelled) label_[slot] = e.label;
         state_.set(slot, e.state);
     }
-    /// Fills up the last pack of a chunk, and looks which rows its packs have.
-    /// \return the first slot after the chunk
+    void move(std::size_t from, std::size_t to) noexcept {
+        i_[to] = i_[from];
+        j_[to] = j_[from];
+        parameter_[to] = parameter_[from];
+        if constexpr (labelled) label_[to] = label_[from];
+        state_.set(to, state_.get(from));
+    }
+    /// Makes pairs of ghosts of what is behind a chunk's pairs, in the first packs of its range.
     template <class Store>
-    std::size_t close(int chunk, std::size_t slot, Store const& store) noexcept {
+    void fill_up(int chunk, std::size_t packs, Store const& store) noexcept {
         Real const apart = store.ghost_distance();
-        std::size_t const first = first_pack(chunk) * width;
+        std::size_t const first = first_slot(chunk);
+        std::size_t slot = first + chunk_pairs_[std::size_t(chunk)];
         // In their pack's row, so that it has one.
-        std::int32_t const row = slot > first ? parameter_[slot - 1] : 0;
-        for (; slot % width != 0; ++slot)
-            put(slot, {store.ghost(0), store.ghost(1), row, -1, Law::template initial<Real, Dim>(apart, apart / 2)});
-        for (std::size_t s = first; s < slot; s += width) {
-            bool const same = std::all_of(parameter_.begin() + std::ptrdiff_t(s), parameter_.begin() + std::ptrdiff_t(s + width),
-                                          [&](std::int32_t r) { return r == parameter_[s]; });
-            uniform_[s / width] = same ? parameter_[s] : -1;
+        entry const ghosts{store.ghost(0), store.ghost(1), slot > first ? parameter_[slot - 1] : 0, -1,
+                           Law::template initial<Real, Dim>(apart, apart / 2)};
+        for (; slot < first + packs * width; ++slot) put(slot, ghosts);
+    }
+    /// Looks which rows the packs of a chunk have.
+    void look_for_rows(int chunk) noexcept {
+        for (std::size_t p = first_pack(chunk); p < end_pack(chunk); ++p) {
+            auto const row = parameter_.begin() + std::ptrdiff_t(p * width);
+            uniform_[p] = std::all_of(row, row + width, [&](std::int32_t r) { return r == *row; }) ? *row : -1;
         }
-        return slot;
     }
 
     static constexpr std::uint32_t stride = body_column<Real>::stride;
     std::vector<std::uint32_t> i_, j_;
     std::vector<std::int32_t> parameter_, label_, uniform_;
-    std::vector<std::size_t> chunk_begin_{0};
+    std::vector<std::size_t> chunk_begin_{0}, chunk_pairs_; // first pack of each, and the end; number of pairs of each
     field_packs<history_of, Real, width> state_;
-    std::size_t count_ = 0;
 };
 
 } // namespace lacuna
