@@ -59,7 +59,6 @@ private:
         slot_of_.resize(n);
         index_.resize(n);
         radius_.resize(n);
-        cell_of_.resize(n);
         for (auto& column : position_) column.resize(n);
         if (n == 0) return;
 
@@ -79,12 +78,12 @@ private:
             std::size_t cell = grid.row_start(row) + std::size_t(c[0]);
             if (grid.hashed) cell &= grid.cells - 1;
             if (any_hashed) row_of_[i] = row;
-            cell_of_[i] = std::uint32_t(grid.base + cell);
+            slot_of_[i] = std::uint32_t(grid.base + cell);
             ++starts_[grid.base + cell + 2];
         }
         for (std::size_t c = 2; c < starts_.size(); ++c) starts_[c] += starts_[c - 1];
         for (std::size_t i = 0; i < n; ++i) {
-            std::size_t const slot = starts_[cell_of_[i] + 1]++;
+            std::size_t const slot = starts_[slot_of_[i] + 1]++;
             slot_of_[i] = std::uint32_t(slot);
             index_[slot] = std::int32_t(i);
             radius_[slot] = radii.empty() ? Real(0) : radii[i];
@@ -268,8 +267,7 @@ private:
     std::vector<std::uint64_t> row_;
     std::vector<std::uint32_t> starts_; // first slot of each cell
     // By particle.
-    std::vector<std::uint32_t> slot_of_;
-    std::vector<std::uint32_t> cell_of_;
+    std::vector<std::uint32_t> slot_of_; // its cell, until it has a slot
     std::vector<std::uint64_t> row_of_;
 };
 

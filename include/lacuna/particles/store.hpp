@@ -76,7 +76,6 @@ public:
             }
         radius_.resize(n);
         mass_.resize(n + ghosts, Real(1));
-        inertia_.resize(n);
         material_.resize(n);
         for (std::size_t k = 0; k < n; ++k) {
             auto const id = std::size_t(id_[k]);
@@ -91,11 +90,11 @@ public:
             double const rho = density[std::size_t(material)];
             bool const disc = masses == mass_model::disc && Dim == 2;
             double const mass = disc ? rho * std::numbers::pi * r * r * thickness : rho * 4 / 3 * std::numbers::pi * r * r * r;
-            double const inertia = (disc ? 0.5 : 0.4) * mass * r * r;
+            inertia_share_ = disc ? 0.5 : 0.4;
+            double const inertia = inertia_share_ * mass * r * r;
             if (!(mass >= min_normal()) || !(inertia >= min_normal()))
                 refuse(name + ".mass", mass, "representable in the model's precision with its moment of inertia");
             radius_[k] = Real(r);
-            inertia_[k] = Real(inertia);
             material_[k] = material;
             for (int axis = 0; axis < Dim; ++axis) body_.at(k, axis) = packing.position[id][axis];
             body_.at(k, 3) = body_.at(k, motion + 3) = Real(r);
@@ -144,7 +143,9 @@ public:
     }
     Real radius(std::size_t k) const noexcept { return radius_[k]; }
     Real mass(std::size_t k) const noexcept { return mass_[k]; }
-    Real moment_of_inertia(std::size_t k) const noexcept { return inertia_[k]; }
+    Real moment_of_inertia(std::size_t k) const noexcept {
+        return Real(inertia_share_ * double(mass_[k]) * double(radius_[k]) * double(radius_[k]));
+    }
     int material(std::size_t k) const noexcept { return material_[k]; }
     /// Eq. 8's unit vector e (2D).
     vec<Real, 2> orientation(std::size_t k) const noexcept
@@ -196,7 +197,7 @@ public:
     /// Inverse of mass along `axis` (0 where fixed), of the moment of inertia for axis == Dim; in 1/kg, 1/(kg m^2).
     Real mobility(std::size_t k, int axis) const noexcept {
         bool const moves = axis < Dim ? free_[k] >> axis & 1 : (free_[k] & turns) != 0;
-        return moves ? Real(1) / (axis < Dim ? mass_[k] : inertia_[k]) : Real(0);
+        return moves ? Real(1) / (axis < Dim ? mass_[k] : moment_of_inertia(k)) : Real(0);
     }
     /// \}
 
@@ -285,7 +286,8 @@ private:
     Real ghost_distance_ = 1;
     std::vector<std::int32_t> id_, internal_;
     std::vector<int> material_;
-    std::vector<Real> radius_, mass_, inertia_, inverse_mass_;
+    std::vector<Real> radius_, mass_, inverse_mass_;
+    double inertia_share_ = 0.4; // of mass times radius squared
     std::vector<std::uint8_t> free_;
     std::vector<std::int32_t> loads_at_; // of blocks of load_block particles: which block of load_; -1: none
     /// Which components of a force, and of a torque over radius, move a particle: a record for each pattern of free_.

@@ -108,11 +108,14 @@ struct throat_record {
     double width = 0; ///< of a throat on the boundary, m, in space its area, m^2
 };
 
-/// Fills in the throats, and the arrays that every network has.
+/// Fills in the throats, by rank and then as they come, and the arrays that every network has.
 template <class Real, int Dim>
-void finish(pore_network<Real, Dim>& net, std::vector<throat_record<Real, Dim>> records, std::size_t particles) {
-    std::stable_sort(records.begin(), records.end(),
-                     [](auto const& a, auto const& b) { return a.rank < b.rank; });
+void finish(pore_network<Real, Dim>& net, std::vector<throat_record<Real, Dim>> const& records, std::size_t particles) {
+    for (auto const& r : records) {
+        net.interior_throats += r.rank == 0;
+        net.drained_throats += r.rank == 1;
+    }
+    std::array<std::size_t, 3> next{0, net.interior_throats, net.open_throats()};
     std::size_t const pores = net.volume.size();
     net.old_volume = net.volume;
     net.pressure.assign(pores, Real(0));
@@ -122,8 +125,8 @@ void finish(pore_network<Real, Dim>& net, std::vector<throat_record<Real, Dim>> 
     for (auto& column : net.throat_pore) column.assign(records.size(), 0);
     net.length.assign(records.size(), Real(0));
     net.aperture.assign(records.size(), Real(0));
-    for (std::size_t t = 0; t < records.size(); ++t) {
-        auto const& r = records[t];
+    for (auto const& r : records) {
+        std::size_t const t = next[std::size_t(r.rank)]++;
         for (std::size_t side = 0; side < r.particle.size(); ++side) net.throat_particle[side][t] = r.particle[side];
         for (std::size_t side = 0; side < 2; ++side) net.throat_pore[side][t] = r.pore[side];
         net.length[t] = r.length;
@@ -131,8 +134,6 @@ void finish(pore_network<Real, Dim>& net, std::vector<throat_record<Real, Dim>> 
         auto& place = net.place[std::size_t(r.pore[0])];
         if (r.rank == 1) place = pore_place::drained;
         if (r.rank == 2 && place == pore_place::interior) place = pore_place::sealed;
-        net.interior_throats += r.rank == 0;
-        net.drained_throats += r.rank == 1;
         if (r.rank == 1) net.drained_pressure.push_back(r.reservoir_pressure);
     }
     net.drained_source = connect_sources(net.sources, records);
@@ -177,13 +178,21 @@ pore_network<Real, Dim> make_pore_network(pore_mesh<Dim> const& mesh, points_vie
                 high[axis] = t + c == 0 ? x[axis] : max(high[axis], x[axis]);
             }
         }
+    auto const has_throat = [&](std::size_t t, std::size_t c) {
+        auto const other = mesh.neighbours[t][c];
+        return other < 0 || std::size_t(other) > t;
+    };
+    std::size_t throats = 0;
+    for (std::size_t t = 0; t < mesh.size(); ++t)
+        for (std::size_t c = 0; c <= Dim; ++c) throats += has_throat(t, c);
     std::vector<detail::throat_record<Real, Dim>> records;
+    records.reserve(throats);
     for (std::size_t t = 0; t < mesh.size(); ++t) {
         auto const& corners = mesh.simplices[t];
         net.size[t] = detail::reference_size(corners, points, radii);
         for (std::size_t c = 0; c <= Dim; ++c) {
+            if (!has_throat(t, c)) continue;
             auto const other = mesh.neighbours[t][c];
-            if (other >= 0 && std::size_t(other) < t) continue;
             auto const around = detail::side_of(corners, c);
             Real length(0);
             for (auto const i : around) length += radii[i];
@@ -202,7 +211,7 @@ pore_network<Real, Dim> make_pore_network(pore_mesh<Dim> const& mesh, points_vie
         }
     }
     if constexpr (requires { boundary.sources(); }) net.sources = boundary.sources();
-    detail::finish(net, std::move(records), points.size());
+    detail::finish(net, records, points.size());
     return net;
 }
 
@@ -234,7 +243,7 @@ pore_network<Real, Dim> make_bare_network(std::vector<Real> const& volumes,
                            one.second < 0 ? 1 : 0, one.source, 1.0});
     }
     net.sources = std::move(sources);
-    detail::finish(net, std::move(records), 0);
+    detail::finish(net, records, 0);
     return net;
 }
 
