@@ -5,6 +5,10 @@
 #include <memory>
 #include <string>
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 /// \file
 /// What a figure must say of the program and the machine that made it.
 
@@ -35,8 +39,12 @@ inline std::string cpu_name() {
     return "unknown";
 }
 
-/// Memory in use now, not at its peak, MB; 0 where Linux's /proc is not there.
+/// Memory in use now, not at its peak, MiB; 0 where Linux's /proc is not there. What was freed and is kept for later by the
+/// C library, if it is GNU's, is given back to the system before.
 inline double resident_mb() {
+#ifdef __GLIBC__
+    malloc_trim(0);
+#endif
     std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen("/proc/self/status", "r"), [](std::FILE* f) {
         return f ? std::fclose(f) : 0;
     });

@@ -43,8 +43,7 @@ struct sheet_constants {
     double spacing = 3.3; ///< of the squeezed lattice; unstressed it would be 3.5
     double jitter = 0.01;
     double time_step = 0.08;
-    double skin = 1.5; ///< of the neighbour lists; second neighbours on the lattice stay beyond it
-    double skin_in_space = 1.2; ///< of those of blocks of spheres
+    double skin = 1.2; ///< of the neighbour lists; second neighbours on the lattice stay beyond it
 };
 
 /// A packing with rows and columns: disc number row * columns + column.

@@ -60,7 +60,7 @@ lacuna::simulation_parameters<Model> work_parameters(int threads = 1) {
     if (Model::dim == 2) p.thickness = sheet_thickness;
     p.keep_pair_forces = false; // no work reads the force of a single pair
     p.time_step = c.time_step;
-    p.interactions.skin = (Model::dim == 2 ? c.skin : c.skin_in_space) / (0.5 * (c.smallest_radius + c.largest_radius));
+    p.interactions.skin = c.skin / (0.5 * (c.smallest_radius + c.largest_radius));
     p.threads = threads;
     if constexpr (lacuna::has_fluid<Model>) {
         fluid_constants const f;
@@ -134,7 +134,7 @@ struct timing {
     double seconds = 0;
     double cpu_seconds = 0; ///< of all threads; less disturbed than seconds by what else runs on the machine
     long long steps = 0;
-    double resident_mb = 0; ///< memory in use after the last run, with the sheet and what the program itself takes
+    double resident_mb = 0; ///< memory in use after the last run, with the sheet and what the program itself takes; see machine.hpp
     std::size_t particles = 0, pairs = 0, bonds = 0, contacts = 0, open_throats = 0, active_throats = 0;
     long long rebuilds = 0;
     double energy_drift = 0;   ///< change of the total energy over the energy stored
