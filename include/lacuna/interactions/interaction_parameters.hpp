@@ -9,7 +9,8 @@ namespace lacuna {
 
 /// Settings of the pair interactions.
 struct interaction_parameters {
-    /// Verlet skin over the mean radius, 1: how far particles move, together, before candidates are sought anew.
+    /// Verlet skin over the mean radius, 1: how much closer two particles come that are no candidates before these are sought
+    /// anew.
     double skin = 0.1;
     /// Pairs, and particles at walls, whose gap or overlap in the initial packing is below this fraction of the (smaller)
     /// radius start as touching at zero force, at the distance they have (MODEL.md section 3); 0: every overlap is a force.
