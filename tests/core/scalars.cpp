@@ -76,7 +76,7 @@ void check_records() {
     REQUIRE(reinterpret_cast<std::uintptr_t>(column.data()) % 64 == 0);
     std::int32_t offset[W];
     for (int k = 0; k < W; ++k) offset[k] = 4 * ((7 * k + 3) % 40);
-    auto const turned = load_turned<T, W>(column.data(), offset);
+    auto const turned = turn_records<T, W>([&](int k) { return record<T>::load(column.data() + offset[k]); });
     for (int k = 0; k < W; ++k)
         for (int l = 0; l < 4; ++l) REQUIRE(turned[std::size_t(l)][k] == T(10 * ((7 * k + 3) % 40)) + T(l));
     std::vector<T> back(4 * W + 8, T(-7));

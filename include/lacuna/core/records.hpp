@@ -221,12 +221,6 @@ std::array<pack<T, W>, 8> turn_bodies(At const& at) noexcept {
     }
 }
 
-/// Fetches the records that begin at base[offset[0..W)] and turns them.
-template <class T, int W, class Offset>
-std::array<pack<T, W>, 4> load_turned(T const* base, Offset const* offset) noexcept {
-    return turn_records<T, W>([&](int k) { return record<T>::load(base + offset[k]); });
-}
-
 /// Writes W records in a row: number l of record k is value[l][k].
 template <class T, int W>
 void store_turned(T* to, std::array<pack<T, W>, 4> const& value) noexcept {

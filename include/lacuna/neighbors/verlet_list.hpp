@@ -114,7 +114,7 @@ public:
         for (std::size_t i = 0; i < points.size(); ++i) {
             if (squared_norm(points[i] - reference_[i]) > far * far) fast_.push_back(std::int32_t(i));
             // Where many move there is nothing to gain.
-            if (fast_.size() > 64 + points.size() / 16) return largest;
+            if (fast_.size() > most_fast(points.size())) return largest;
         }
         // If one of them has moved by less than `far`.
         real_type approach = largest + far;
@@ -150,6 +150,7 @@ public:
         for (std::size_t i = 0; i < points.size(); ++i) reference_[i] = points[i];
         radii_.assign(radii.begin(), radii.end());
         largest_radius_ = largest;
+        fast_.reserve(most_fast(points.size()) + 1);
         built_ = true;
         ++build_count_;
     }
@@ -172,6 +173,7 @@ public:
     }
 
 private:
+    static constexpr std::size_t most_fast(std::size_t particles) noexcept { return 64 + particles / 16; }
     /// Along which the particles in fast_ are furthest from each other.
     int widest_axis() const noexcept {
         int widest = 0;

@@ -157,7 +157,7 @@ protected:
                           network.size == network_.size && network.pores() == network_.pores() && network.open_throats() == network_.open_throats();
         network_ = std::move(network);
         ledger_ = ledger;
-        drop_vapour();
+        fit_vapour();
         if (same) {
             pores_.set_fillers(network_);
             throats_.collect_active(network_);
@@ -189,9 +189,11 @@ protected:
         if (forces_.built() && forces_.streaming() == streaming) return;
         forces_.build(network_, pore_table<Real, Dim>::chunk_packs * pore_table<Real, Dim>::width, streaming);
     }
-    /// Whether forces can be summed up as soon as they are there: on one thread, and nothing changes a pressure after
-    /// the pass over the pores.
-    bool can_stream(int threads) const noexcept { return threads == 1 && feed_.pores().empty() && !clusters_.on(); }
+    /// Whether forces can be summed up as soon as they are there: on one thread, with throats in the order of their pores,
+    /// and nothing changes a pressure after the pass over the pores.
+    bool can_stream(int threads) const noexcept {
+        return threads == 1 && throats_.in_order() && feed_.pores().empty() && !clusters_.on();
+    }
 
     /// The whole step where can_stream(): throats, pores and sums on the particles follow each other run by run, while
     /// what they read is in the cache. A throat belongs to the lower of its pores: once the throats before the end of a
@@ -321,13 +323,16 @@ private:
             Real const a = network_.aperture[t];
             network_.conductance[t] = Real(p.conductivity) * (a * a * a / network_.length[t]);
         }
-        drop_vapour();
+        fit_vapour();
         build_tables();
     }
 
-    /// A fluid that never tears has no vapour.
-    void drop_vapour() noexcept {
-        if (!(parameters_.minimum_pressure > -std::numeric_limits<double>::infinity())) network_.vapour = {};
+    /// A fluid that never tears has no vapour, one that does has some or none in every pore.
+    void fit_vapour() {
+        if (!(parameters_.minimum_pressure > -std::numeric_limits<double>::infinity()))
+            network_.vapour = {};
+        else if (network_.vapour.empty())
+            network_.vapour.assign(network_.pores(), Real(0));
     }
     /// The throats' part in the ledger of a step with the present pressures; see throat_table::add_up().
     void add_up_throats(Real dt, int threads) noexcept {

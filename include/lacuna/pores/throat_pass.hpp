@@ -44,6 +44,10 @@ public:
         for (auto& force : force_) force.assign(slots, 0);
         every_.resize(packs);
         for (std::size_t p = 0; p < packs; ++p) every_[p] = std::int32_t(p);
+        in_order_ = true;
+        for (std::size_t t = 0; t < net.interior_throats; ++t)
+            in_order_ = in_order_ && net.throat_pore[0][t] < net.throat_pore[1][t] &&
+                        (t == 0 || net.throat_pore[0][t - 1] <= net.throat_pore[0][t]);
         collect_active(net);
     }
 
@@ -62,6 +66,9 @@ public:
             if (throats_ > before) active_.push_back(std::int32_t(p));
         }
     }
+    /// Whether side 0 is that of the lower pore, and throats come in the order of these pores, as make_pore_network()
+    /// has them; but for drained throats.
+    bool in_order() const noexcept { return in_order_; }
     /// Throats that are not skipped.
     std::size_t active_throats() const noexcept { return throats_; }
 
@@ -76,13 +83,15 @@ public:
     /// Packs of a pass: those with a throat that is not skipped, or all.
     std::vector<std::int32_t> const& packs(bool all) const noexcept { return all ? every_ : active_; }
     int chunks(bool all) const noexcept { return int((packs(all).size() + chunk_packs - 1) / chunk_packs); }
-    /// The first after `from` of the packs with flow in which a throat begins at `pore` or a later one, or is drained.
+    /// The first from `from` on of the packs with flow that begins at `pore` or a later one, or has a drained throat;
+    /// where in_order().
     std::size_t first_beyond(pore_network<Real, Dim> const& net, std::size_t pore, std::size_t from) const noexcept {
         auto const within = [&](std::size_t slot) {
             return slot + width <= net.interior_throats && std::size_t(net.throat_pore[0][slot]) < pore;
         };
-        while (from < active_.size() && within(std::size_t(active_[from]) * width)) ++from;
-        return from;
+        return std::size_t(std::partition_point(active_.begin() + std::ptrdiff_t(from), active_.end(),
+                                                [&](std::int32_t p) { return within(std::size_t(p) * width); }) -
+                           active_.begin());
     }
 
     /// Eq. 14 for the throats of one chunk.
@@ -220,6 +229,7 @@ private:
     }
 
     std::size_t throats_ = 0;
+    bool in_order_ = true;
     std::vector<std::int32_t> far_; // pore at the far end, that at the near one where nothing flows
     std::array<aligned_vector<std::uint32_t>, pairs> force_; // places of normal forces
     aligned_vector<Real> factor_; // k / l, 0 of what fills up the last pack
