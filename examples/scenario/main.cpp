@@ -8,7 +8,7 @@
 
 #include <lacuna/core/error.hpp>
 
-#include "help.hpp"
+#include "key_table.hpp"
 #include "runner.hpp"
 
 namespace {
@@ -52,7 +52,7 @@ int run(request const& asked) {
 /// \return the exit status, where the command line alone decides it; else -1
 int parse(int argc, char** argv, request& asked) {
     CLI::App app("Runs one TOML scenario of bonded particles and pore fluid and writes what it asks for.", "lacuna-run");
-    app.footer(lacuna_run::keys_text);
+    app.footer(lacuna_run::keys_help());
     app.add_option("FILE", asked.file, "the scenario")->required();
     app.add_flag("--check", asked.check, "only check the scenario");
     app.add_option("--restart", asked.checkpoint, "go on from a checkpoint of the same scenario");

@@ -9,49 +9,7 @@ namespace lacuna_run {
 
 namespace {
 
-/// What a quantity is a quantity of: the key that says which one.
-enum class subject { particle, bond, contact, pore, throat, wall, whole };
-
-/// Whether a quantity has a component, written as .x, .y, .z.
-enum class parts { none, needed, in_space };
-
-struct entry {
-    char const* name;
-    quantity what;
-    subject of;
-    parts axes;
-};
-
-constexpr entry entries[] = {
-    {"position", quantity::position, subject::particle, parts::needed},
-    {"velocity", quantity::velocity, subject::particle, parts::needed},
-    {"spin", quantity::spin, subject::particle, parts::in_space},
-    {"rotation", quantity::rotation, subject::particle, parts::in_space},
-    {"force", quantity::force, subject::particle, parts::needed},
-    {"torque", quantity::torque, subject::particle, parts::in_space},
-    {"bond.normal_force", quantity::bond_normal_force, subject::bond, parts::none},
-    {"bond.shear_force", quantity::bond_shear_force, subject::bond, parts::none},
-    {"bond.broken", quantity::bond_broken, subject::bond, parts::none},
-    {"contact.normal_force", quantity::contact_normal_force, subject::contact, parts::none},
-    {"contact.shear_force", quantity::contact_shear_force, subject::contact, parts::none},
-    {"pore.pressure", quantity::pore_pressure, subject::pore, parts::none},
-    {"pore.volume", quantity::pore_volume, subject::pore, parts::none},
-    {"throat.flow", quantity::throat_flow, subject::throat, parts::none},
-    {"wall.force", quantity::wall_force, subject::wall, parts::needed},
-    {"energy.kinetic", quantity::kinetic, subject::whole, parts::none},
-    {"energy.strain", quantity::strain, subject::whole, parts::none},
-    {"energy.friction", quantity::friction, subject::whole, parts::none},
-    {"energy.damping", quantity::damping, subject::whole, parts::none},
-    {"energy.fracture", quantity::fracture, subject::whole, parts::none},
-    {"energy.fluid", quantity::fluid_energy, subject::whole, parts::none},
-    {"energy.external", quantity::external, subject::whole, parts::none},
-    {"energy.residual", quantity::residual, subject::whole, parts::none},
-    {"count.broken_tension", quantity::broken_tension, subject::whole, parts::none},
-    {"count.broken_shear", quantity::broken_shear, subject::whole, parts::none},
-    {"count.contacts", quantity::contacts, subject::whole, parts::none},
-};
-
-std::vector<std::string> names_of(entry const& e, int dimension) {
+std::vector<std::string> names_of(quantity_row const& e, int dimension) {
     std::vector<std::string> names;
     if (e.axes != parts::needed) names.emplace_back(e.name);
     if (e.axes == parts::needed || (e.axes == parts::in_space && dimension == 3))
@@ -59,10 +17,10 @@ std::vector<std::string> names_of(entry const& e, int dimension) {
     return names;
 }
 
-entry const& find_entry(value const& from, int dimension, int& axis) {
+quantity_row const& find_entry(value const& from, int dimension, int& axis) {
     std::string const name = from.string();
     std::vector<std::string> known;
-    for (entry const& e : entries)
+    for (quantity_row const& e : quantities)
         for (std::string const& one : names_of(e, dimension)) {
             if (one == name) {
                 axis = one.size() == std::strlen(e.name) ? -1 : one.back() - 'x';
@@ -70,15 +28,12 @@ entry const& find_entry(value const& from, int dimension, int& axis) {
             }
             known.push_back(one);
         }
-    std::string const near = nearest_word(name, known);
-    from.refuse("a known quantity" + (near.empty() ? "" : " (did you mean \"" + near + "\"?)"));
+    from.refuse("a known quantity" + did_you_mean(name, known));
 }
 
 /// Where in the pore network, from `pore` or `near`.
 std::string read_pore(table const& t, fluid const& water, pore_place& place) {
-    if (water.bare()) t.must_be_left_out("near", "a bare network has no places");
     if (t.has("near")) {
-        t.must_be_left_out("pore", "near is given");
         place.near = t["near"].vector(2);
         return lacuna::to_text((*place.near)[0]) + ";" + lacuna::to_text((*place.near)[1]);
     }
@@ -89,18 +44,31 @@ std::string read_pore(table const& t, fluid const& water, pore_place& place) {
 
 } // namespace
 
+char const* key_of(subject of) {
+    switch (of) {
+    case subject::particle: return "particle";
+    case subject::bond: return "bond";
+    case subject::contact: return "pair";
+    case subject::pore: return "pore or near";
+    case subject::throat: return "near, pore or throat";
+    case subject::wall: return "wall";
+    case subject::whole: break;
+    }
+    return "";
+}
+
 probe read_probe(value const& from, scenario const& s) {
-    table const t(from, {"quantity", "particle", "bond", "pair", "pore", "near", "throat", "wall", "every"});
+    table const t(from, "probes[]");
     probe p;
     p.name = t["quantity"].string();
-    entry const& e = find_entry(t["quantity"], s.simulation.dimension, p.axis);
+    quantity_row const& e = find_entry(t["quantity"], s.simulation.dimension, p.axis);
     p.what = e.what;
-    if (t.has("every")) p.every = t["every"].integer(1, 1000000000000000LL, "from 1 to 1e15 steps");
+    p.every = t.whole("every");
 
-    auto const only = [&](std::initializer_list<char const*> keys) {
+    auto const only = [&](std::initializer_list<char const*> wanted_keys) {
         for (char const* key : {"particle", "bond", "pair", "pore", "near", "throat", "wall"}) {
             bool wanted = false;
-            for (char const* one : keys) wanted = wanted || std::strcmp(one, key) == 0;
+            for (char const* one : wanted_keys) wanted = wanted || std::strcmp(one, key) == 0;
             if (!wanted) t.must_be_left_out(key, p.name + " has none");
         }
     };
@@ -139,8 +107,6 @@ probe read_probe(value const& from, scenario const& s) {
         only({"pore", "near", "throat"});
         need_fluid();
         if (t.has("throat")) {
-            for (char const* key : {"pore", "near"}) t.must_be_left_out(key, "throat is given");
-            if (!bare) t["throat"].refuse("left out: give near, throats of a triangulation have no numbers");
             p.throat = t["throat"].index(s.water->throats.size(), "throats");
             label = "throat " + std::to_string(p.throat);
         } else {

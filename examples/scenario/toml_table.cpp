@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "toml_table.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
-#include <sstream>
+#include <stdexcept>
+#include <utility>
 
 namespace lacuna_run {
 
@@ -43,23 +42,26 @@ double value::number() const {
     return found;
 }
 
-double value::positive() const {
+double value::number(rule const& good) const {
     double const found = number();
-    if (!(found > 0)) refuse("> 0");
+    if (found < good.least || (found == good.least && good.above_least) || found > good.most) refuse(good.text);
     return found;
 }
 
-double value::not_negative() const {
-    double const found = number();
-    if (!(found >= 0)) refuse(">= 0");
-    return found;
+long long value::whole(rule const& good) const {
+    return integer((long long)(good.least), (long long)(good.most), good.text);
+}
+
+long long value::whole_number() const {
+    auto const* whole = node->as_integer();
+    if (!whole) refuse("a whole number");
+    return whole->get();
 }
 
 long long value::integer(long long low, long long high, std::string const& rule) const {
-    auto const* whole = node->as_integer();
-    if (!whole) refuse("a whole number");
-    if (whole->get() < low || whole->get() > high) refuse(rule);
-    return whole->get();
+    long long const found = whole_number();
+    if (found < low || found > high) refuse(rule);
+    return found;
 }
 
 std::int32_t value::index(std::size_t count, std::string const& of) const {
@@ -80,16 +82,12 @@ std::string value::string() const {
     return one->get();
 }
 
-int value::word(std::initializer_list<char const*> words) const {
-    std::string rule;
+int value::word(std::string_view choices) const {
+    auto const known = words_in(choices);
     std::string const found = node->is_string() ? string() : "";
-    int place = 0;
-    for (char const* word : words) {
-        if (node->is_string() && found == word) return place;
-        rule += (place == 0 ? "\"" : ", \"") + std::string(word) + "\"";
-        ++place;
-    }
-    refuse("one of " + rule);
+    for (std::size_t place = 0; place < known.size() && node->is_string(); ++place)
+        if (found == known[place]) return int(place);
+    refuse("one of " + quoted(known) + did_you_mean(found, known));
 }
 
 std::vector<value> value::list() const {
@@ -109,23 +107,74 @@ point value::vector(int dimension) const {
     return result;
 }
 
-table::table(value const& from, std::initializer_list<char const*> known)
-    : toml_(from.node->as_table()), path_(from.path) {
+std::vector<std::string> words_in(std::string_view choices) {
+    std::vector<std::string> words(1);
+    for (char const c : choices)
+        if (c == '|')
+            words.emplace_back();
+        else
+            words.back() += c;
+    return words;
+}
+
+std::string quoted(std::vector<std::string> const& words) {
+    std::string text;
+    for (std::string const& word : words) text += (text.empty() ? "\"" : ", \"") + word + "\"";
+    return text;
+}
+
+std::string did_you_mean(std::string const& word, std::vector<std::string> const& known) {
+    std::string const near = nearest_word(word, known);
+    return near.empty() ? "" : " (did you mean \"" + near + "\"?)";
+}
+
+table::table(value const& from, std::string rows) : toml_(from.node->as_table()), path_(from.path), rows_(std::move(rows)) {
     if (!toml_) from.refuse("a table");
-    for (auto const& [key, node] : *toml_) {
-        std::string const name(key.str());
-        if (std::find(known.begin(), known.end(), name) != known.end()) continue;
-        std::string const near = nearest_word(name, {known.begin(), known.end()});
-        std::string rule = "a known key";
-        if (!near.empty()) rule += " (did you mean \"" + near + "\"?)";
-        value{&node, path(name.c_str())}.refuse(rule);
-    }
 }
 
 value table::operator[](char const* key) const {
     value const found{toml_->get(key), path(key)};
     if (found.node == nullptr) found.refuse("given");
     return found;
+}
+
+std::string_view table::standard(char const* key) const {
+    auto const* row = find_key(rows_.empty() ? key : rows_ + "." + key);
+    if (row == nullptr) throw std::logic_error("no row for the key " + path(key));
+    if (std::string_view(row->standard) == required) (void)(*this)[key];
+    return row->standard;
+}
+
+double table::number(char const* key) const {
+    if (has(key)) return (*this)[key].number();
+    return lacuna::read_number(path(key), std::string(standard(key)));
+}
+
+long long table::whole(char const* key) const {
+    if (has(key)) return (*this)[key].whole_number();
+    return (long long)(lacuna::read_number(path(key), std::string(standard(key))));
+}
+
+bool table::flag(char const* key) const { return has(key) ? (*this)[key].flag() : standard(key) == "true"; }
+
+int table::word(char const* key) const {
+    auto const text = has(key) ? (*this)[key].string() : std::string(standard(key));
+    auto const known = words_in(find_key(rows_ + "." + key)->good.choices);
+    for (std::size_t place = 0; place < known.size(); ++place)
+        if (text == known[place] || text == quoted({known[place]})) return int(place);
+    (*this)[key].refuse("given");
+}
+
+point table::vector(char const* key, int dimension) const {
+    if (has(key)) return (*this)[key].vector(dimension);
+    (void)standard(key);
+    return {};
+}
+
+std::vector<value> table::list(char const* key) const {
+    if (has(key)) return (*this)[key].list();
+    (void)standard(key);
+    return {};
 }
 
 } // namespace lacuna_run

@@ -2,13 +2,14 @@
 #pragma once
 
 #include <cstdint>
-#include <initializer_list>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include <lacuna/core/text.hpp>
 
+#include "key_table.hpp"
 #include "scenario.hpp"
 
 namespace lacuna_run {
@@ -51,51 +52,73 @@ struct value {
     /// \name Typed values. \throws refusal
     /// \{
     double number() const;
-    double positive() const;
-    double not_negative() const;
+    double number(rule const& good) const;
+    long long whole(rule const& good) const;
+    long long whole_number() const;
     long long integer(long long low, long long high, std::string const& rule) const;
     /// A number that counts something, of which there are `count`.
     std::int32_t index(std::size_t count, std::string const& of) const;
     bool flag() const;
     std::string string() const;
-    /// One of the words, by its place among them.
-    int word(std::initializer_list<char const*> words) const;
+    /// One of the choices, parted by '|', by its place among them.
+    int word(std::string_view choices) const;
     std::vector<value> list() const;
     /// `dimension` numbers; the others are 0.
     point vector(int dimension) const;
     /// \}
 };
 
-/// A table of the file, all of whose keys are known.
+/// A table of the file, whose keys have been checked against the rows of key_table.hpp.
 class table {
 public:
-    /// \throws refusal for a value that is no table, or has a key that is not `known`
-    table(value const& from, std::initializer_list<char const*> known);
+    /// \param rows path of the table in key_table.hpp, "materials.*"
+    /// \throws refusal for a value that is no table
+    table(value const& from, std::string rows);
 
     bool has(char const* key) const { return toml_->get(key) != nullptr; }
     /// \throws refusal when it is missing
     value operator[](char const* key) const;
     std::string path(char const* key) const { return path_.empty() ? key : path_ + "." + key; }
 
-    double number(char const* key, double otherwise) const { return has(key) ? (*this)[key].number() : otherwise; }
-    double positive(char const* key, double otherwise) const { return has(key) ? (*this)[key].positive() : otherwise; }
-    double not_negative(char const* key, double otherwise) const {
-        return has(key) ? (*this)[key].not_negative() : otherwise;
-    }
-    bool flag(char const* key, bool otherwise) const { return has(key) ? (*this)[key].flag() : otherwise; }
-    int word(char const* key, std::initializer_list<char const*> words, int otherwise) const {
-        return has(key) ? (*this)[key].word(words) : otherwise;
-    }
+    /// \name What stands at a key, or else what its row says.
+    /// \throws refusal when its row says that it must be given
+    /// \{
+    double number(char const* key) const;
+    /// Nothing where the key is left out.
+    std::optional<double> given(char const* key) const { return has(key) ? std::optional((*this)[key].number()) : std::nullopt; }
+    long long whole(char const* key) const;
+    bool flag(char const* key) const;
+    /// A word by its place among the choices.
+    int word(char const* key) const;
+    /// A step in s; 0: "auto".
+    double step(char const* key) const { return has(key) && !(*this)[key].node->is_string() ? (*this)[key].number() : 0; }
+    /// Zeros where it is left out.
+    point vector(char const* key, int dimension) const;
+    /// Empty where it is left out.
+    std::vector<value> list(char const* key) const;
+    /// \}
     /// \throws refusal for a key that is there although it means nothing here
     void must_be_left_out(char const* key, std::string const& because) const {
         if (has(key)) (*this)[key].refuse("left out: " + because);
     }
 
 private:
+    std::string_view standard(char const* key) const;
+
     toml::table const* toml_;
-    std::string path_;
+    std::string path_, rows_;
 };
 
+/// Checks a whole file against key_table.hpp: unknown keys, keys that mean nothing here, types, ranges and choices.
+/// \throws refusal
+void check_keys(toml::table const& file);
+
 using lacuna::nearest_word;
+/// The words of "a|b|c".
+std::vector<std::string> words_in(std::string_view choices);
+/// The words in quotation marks, parted by commas.
+std::string quoted(std::vector<std::string> const& words);
+/// " (did you mean ...?)", or nothing where no known word is near.
+std::string did_you_mean(std::string const& word, std::vector<std::string> const& known);
 
 } // namespace lacuna_run

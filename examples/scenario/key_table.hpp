@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "key_kinds.hpp"
+
+/// \file
+/// Every key of a scenario, in one table: what may stand there, in which unit, what holds without it, and where it means
+/// something. Reading, refusals, `--help` and the README's tables follow from it. A new key is one row here and one line
+/// where it is used (`table::number("key")` and the like, toml_table.hpp).
+
+namespace lacuna_run {
+
+inline constexpr key keys[] = {
+    {"simulation", kind::table, "", required, any, always, ""},
+    {"simulation.dimension", kind::whole, "", "2", {2, 3, false, "2 or 3"}, always, "2: the plane, 3: space"},
+    {"simulation.real", kind::word, "", "\"double\"", one_of("double|float"), always, "precision of the numbers"},
+    {"simulation.thickness", kind::number, "m", "1.0", positive, in_plane, "out of the plane"},
+    {"simulation.mass", kind::word, "", "\"disc\" (3D: \"sphere\")", one_of("disc|sphere"), always,
+     "disc: density pi r^2 thickness, I = m r^2/2; sphere: density 4/3 pi r^3, I = 2/5 m r^2"},
+    {"simulation.contact_law", kind::word, "", "\"frictional_spring\"", one_of("none|frictional_spring|hertz_mindlin"), always, ""},
+    {"simulation.bond_law", kind::word, "", "\"brittle_spring\"", one_of("none|brittle_spring|parallel_bond"), always, ""},
+    {"simulation.integrator", kind::word, "", "\"symplectic_euler\"", one_of("symplectic_euler|velocity_verlet"), always,
+     "velocity_verlet: velocities are those at the time of the positions"},
+    {"simulation.time_step", kind::step, "s", "\"auto\"", positive, always,
+     "auto: safety times the rigorous bound, found again when bonds or contact candidates change"},
+    {"simulation.safety", kind::number, "", "0.2", {0, 1, true, "> 0 and <= 1"}, always, "times the bound is the step of \"auto\""},
+    {"simulation.allow_unstable_step", kind::flag, "", "false", any, always, "run even with a time_step above the bound"},
+    {"simulation.steps", kind::whole, "", "", {0, 1e15, false, "from 0 to 1e15"}, always, "of these or end_time exactly one is given"},
+    {"simulation.end_time", kind::number, "s", "", positive, no_steps, "the time at which the run ends"},
+    {"simulation.gravity", kind::vector, "m/s^2", "0", any, always, "acceleration of all particles"},
+    {"simulation.fluid_density", kind::number, "kg/m^3", "0", not_negative, always,
+     "a fluid at rest takes the weight of what the particles displace; pressures are those above hydrostatic"},
+    {"simulation.threads", kind::whole, "", "1", {1, 1024, false, "from 1 to 1024"}, always, "results do not depend on it"},
+    {"simulation.damping", kind::table, "", "", any, always, ""},
+    {"simulation.damping.local", kind::number, "", "0", fraction, always, "factor of local damping"},
+    {"simulation.damping.mass", kind::number, "1/s", "0", not_negative, always, "drag over momentum"},
+    {"simulation.damping.viscous", kind::number, "", "0", not_negative, always, "ratio of critical damping of bonds and contacts"},
+
+    {"materials", kind::named, "", required, any, with_particles, "materials by name"},
+    {"materials.*", kind::table, "", "", any, always, ""},
+    {"materials.*.density", kind::number, "kg/m^3", required, positive, always, ""},
+    {"materials.*.normal_stiffness", kind::number, "N/m", required, positive, always, "of contacts and bonds"},
+    {"materials.*.shear_stiffness", kind::number, "N/m", required, not_negative, always, "of contacts and bonds"},
+    {"materials.*.friction", kind::number, "", required, not_negative, always, "coefficient"},
+    {"materials.*.tensile_strength", kind::number, "Pa", "never breaks", not_negative, always, "times the bond's area"},
+    {"materials.*.shear_strength", kind::number, "Pa", "never breaks", not_negative, always, "times the bond's area"},
+    {"materials.*.young_modulus", kind::number, "Pa", "from the stiffnesses", positive, with_hertz, "of the particles"},
+    {"materials.*.poisson_ratio", kind::number, "", required, {-1, 0.5, true, "> -1 and <= 0.5"}, young_given, "of young_modulus"},
+
+    {"particles", kind::table, "", required, any, with_particles, ""},
+    {"particles.position", kind::points, "m", required, any, no_file, "list of points"},
+    {"particles.radius", kind::each_number, "m", required, positive, no_file, "one for all or one per particle"},
+    {"particles.material", kind::each_text, "", required, any, no_file, "name; one for all or one per particle"},
+    {"particles.velocity", kind::points, "m/s", "0", any, no_file, "one per particle"},
+    {"particles.spin", kind::turns, "rad/s", "0", any, no_file, "one per particle"},
+    {"particles.fix", kind::tables, "", "none", any, always, "particles that are held"},
+    {"particles.fix[].particles", kind::numbers, "", required, any, always, "their numbers"},
+    {"particles.fix[].axes", kind::text, "", required, any, always, "some of the letters \"xyzr\"; r: rotation"},
+    {"particles.file", kind::text, "", "", any, always,
+     "CSV in place of the lists (relative to the TOML file), columns position.x, position.y, radius, material, and if wanted "
+     "velocity.x, ..., spin"},
+
+    {"bonds", kind::table, "", "", any, with_particles | with_bonds, ""},
+    {"bonds.pairs", kind::pairs, "", required, any, listed_bonds, "list of pairs of particles"},
+    {"bonds.touching", kind::flag, "", "false", any, always, "all pairs whose gap is at most gap, numbered by particles"},
+    {"bonds.gap", kind::number, "m", required, not_negative, touching_bonds, "the largest of bonded pairs"},
+    {"bonds.normal_stiffness", kind::each_number, "N/m", "the material's", positive, always, "one or one per pair"},
+    {"bonds.shear_stiffness", kind::each_number, "N/m", "the material's", not_negative, always, "one or one per pair"},
+    {"bonds.bending_stiffness", kind::each_number, "N m/rad", "from the stiffnesses", not_negative, with_parallel_bonds,
+     "one or one per pair"},
+    {"bonds.tensile_force", kind::each_number, "N", "the material's", not_negative, always,
+     "at which a bond breaks in pure tension; one or one per pair"},
+    {"bonds.shear_force", kind::each_number, "N", "the material's", not_negative, always,
+     "at which a bond breaks in pure shear; one or one per pair"},
+
+    {"walls", kind::tables, "", "none", any, with_particles | with_contacts, "rigid planes without end"},
+    {"walls[].point", kind::vector, "m", required, any, always, "on the plane"},
+    {"walls[].normal", kind::vector, "", required, any, always, "to the side where the particles are"},
+    {"walls[].normal_stiffness", kind::number, "N/m", required, positive, always, "as a material's"},
+    {"walls[].shear_stiffness", kind::number, "N/m", required, not_negative, always, "as a material's"},
+    {"walls[].friction", kind::number, "", required, not_negative, always, "as a material's"},
+    {"walls[].young_modulus", kind::number, "Pa", "from the stiffnesses", positive, with_hertz, "as a material's"},
+    {"walls[].poisson_ratio", kind::number, "", required, {-1, 0.5, true, "> -1 and <= 0.5"}, young_given, "of young_modulus"},
+
+    {"loads", kind::tables, "", "none", any, with_particles, "loads on one particle add up and must rise together"},
+    {"loads[].particles", kind::numbers, "", required, any, no_pressure, "numbers of the loaded particles"},
+    {"loads[].force", kind::vector, "N", "0", any, no_pressure | no_velocity, "on each"},
+    {"loads[].torque", kind::turn, "N m", "0", any, no_pressure | no_velocity, "on each"},
+    {"loads[].velocity", kind::vector, "m/s", "", any, no_pressure, "prescribed, in place of a force; all axes"},
+    {"loads[].pressure", kind::number, "Pa", "", any, in_plane, "in place of particles: pi r^2 of it on each particle of a row"},
+    {"loads[].side", kind::word, "", "\"top\"", one_of("top|bottom|left|right"), pressure_given,
+     "the row of particles whose centre is seen from there"},
+    {"loads[].margin_diameters", kind::number, "", "0", not_negative, pressure_given,
+     "leaves out those nearer than that many mean diameters to the row's ends"},
+    {"loads[].ramp_time", kind::number, "s", "0", not_negative, always, "linear from zero"},
+
+    {"fluid", kind::table, "", "none", any, in_plane, "pore fluid"},
+    {"fluid.bulk_modulus", kind::number, "Pa", required, positive, always, ""},
+    {"fluid.conductivity", kind::number, "", required, not_negative, always, "k of C = k a^3 / l"},
+    {"fluid.aperture", kind::table, "", required, any, with_particles, "of the throats"},
+    {"fluid.aperture.law", kind::word, "", required, one_of("contact_force|constant"), always, ""},
+    {"fluid.aperture.a0", kind::number, "m", required, positive, contact_aperture, "without a force"},
+    {"fluid.aperture.F0", kind::number, "N", required, positive, contact_aperture, "that halves the aperture"},
+    {"fluid.aperture.gap_multiplier", kind::number, "", "1", fraction, contact_aperture, "part of the gap that opens the throat"},
+    {"fluid.aperture.value", kind::number, "m", required, not_negative, constant_aperture, ""},
+    {"fluid.solver", kind::word, "", "\"explicit\"", one_of("explicit|implicit"), always, ""},
+    {"fluid.time_step", kind::step, "s", "\"auto\"", positive, always,
+     "auto: explicit as many flow steps in one of the particles as are safe, implicit one"},
+    {"fluid.initial_pressure", kind::number, "Pa", "0", any, always, ""},
+    {"fluid.boundary", kind::word, "", "\"sealed\"", one_of("sealed|drained"), always, "the outer edge"},
+    {"fluid.boundary_pressure", kind::number, "Pa", "0", any, drained, ""},
+    {"fluid.reservoirs", kind::tables, "", "none", any, always, "pores whose pressure is kept"},
+    {"fluid.reservoirs[].near", kind::vector, "m", "", any, with_particles | no_pore, "the pore nearest to a point"},
+    {"fluid.reservoirs[].pore", kind::index, "", "", any, always, "numbered as in summary.json"},
+    {"fluid.reservoirs[].pressure", kind::number, "Pa", required, any, always, ""},
+    {"fluid.sources", kind::tables, "", "none", any, always, "pores into which fluid is pumped"},
+    {"fluid.sources[].near", kind::vector, "m", "", any, with_particles | no_pore, "the pore nearest to a point"},
+    {"fluid.sources[].pore", kind::index, "", "", any, always, "numbered as in summary.json"},
+    {"fluid.sources[].flow", kind::number, "m^3/s", required, any, always, ""},
+    {"fluid.merge_conductance", kind::number, "m^3/(s Pa)", "never", positive, always, "a throat above it merges its two pores"},
+    {"fluid.mechanical_coupling", kind::flag, "", "true", any, always, "false: rigid particles, flow only"},
+    {"fluid.network", kind::table, "", "", any, always, "pores and throats in place of particles"},
+    {"fluid.network.pores", kind::tables, "", required, any, always, ""},
+    {"fluid.network.pores[].volume", kind::number, "m^3", required, positive, always, ""},
+    {"fluid.network.pores[].pressure", kind::number, "Pa", "0", any, always, "at the start"},
+    {"fluid.network.throats", kind::tables, "", required, any, always, ""},
+    {"fluid.network.throats[].pores", kind::two, "", required, any, always, "the two that it joins"},
+    {"fluid.network.throats[].aperture", kind::number, "m", required, positive, always, ""},
+    {"fluid.network.throats[].length", kind::number, "m", required, positive, always, ""},
+
+    {"probes", kind::tables, "", "none", any, always, "columns of probes.csv after step and time"},
+    {"probes[].quantity", kind::quantity, "", required, any, always, "one of those below"},
+    {"probes[].particle", kind::index, "", "", any, always, "number of the particle"},
+    {"probes[].bond", kind::index, "", "", any, always, "number of the bond"},
+    {"probes[].pair", kind::two, "", "", any, always, "the two particles of a contact"},
+    {"probes[].pore", kind::index, "", "", any, no_throat, "number of the pore; of throat.flow: all that flows into it"},
+    {"probes[].near", kind::vector, "m", "", any, with_particles | no_pore | no_throat, "the nearest pore or throat"},
+    {"probes[].throat", kind::index, "", "", any, bare_network, "number of the throat"},
+    {"probes[].wall", kind::index, "", "", any, always, "number of the wall"},
+    {"probes[].every", kind::whole, "", "1", {1, 1e15, false, "from 1 to 1e15 steps"}, always, "cells in between are empty"},
+
+    {"output", kind::table, "", "", any, always, ""},
+    {"output.directory", kind::text, "", "\"out\"", any, always, "made where needed, relative to where the program runs"},
+    {"output.vtk_every", kind::whole, "", "0", steps_or_none, always,
+     "steps; particles.pvd, bonds.pvd (mode: 0 intact, 1 tension, 2 shear), pores.pvd and their frames, for ParaView; "
+     "compressed in programs built with zlib"},
+    {"output.picture_every", kind::whole, "", "0", steps_or_none, in_plane, "steps; PNG and SVG"},
+    {"output.checkpoint_every", kind::whole, "", "0", steps_or_none, always, "steps; checkpoint.bin, the last one"},
+};
+
+/// The key of that path, or none.
+constexpr key const* find_key(std::string_view path) {
+    for (key const& k : keys)
+        if (path == k.path) return &k;
+    return nullptr;
+}
+
+/// The keys as `--help` shows them, with the quantities of probes and the exit status.
+std::string keys_help();
+/// The table of one section ("simulation", "materials", ...) as the README shows it.
+std::string keys_markdown(std::string_view section);
+/// The same of what probes read.
+std::string quantities_markdown();
+/// Names of the sections, in order.
+inline constexpr char const* sections[] = {"simulation", "materials", "particles", "bonds",  "walls",
+                                           "loads",      "fluid",     "probes",    "output"};
+
+} // namespace lacuna_run

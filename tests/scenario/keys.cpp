@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <fstream>
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "catch.hpp"
+#include "scenario/program.hpp"
+
+#include "key_table.hpp"
+#include "scenario.hpp"
+
+/// \file
+/// The table of keys keeps what it says: each row is tried alone, in a file that holds nothing but this key and what it asks for.
+
+using namespace lacuna_run;
+
+namespace {
+
+/// A small TOML file as a tree: inline tables within inline tables.
+struct tree {
+    std::map<std::string, tree> below;
+    std::string value;
+    bool list = false;
+
+    /// \param path "loads[].force", "materials.*.density"
+    void set(std::string_view path, std::string const& to) {
+        auto const dot = path.find('.');
+        std::string name(path.substr(0, dot));
+        bool const is_list = name.size() > 2 && name.substr(name.size() - 2) == "[]";
+        if (is_list) name.resize(name.size() - 2);
+        tree& one = below[name == "*" ? "matrix" : name];
+        one.list = one.list || is_list;
+        if (dot == path.npos)
+            one.value = to;
+        else
+            one.set(path.substr(dot + 1), to);
+    }
+    std::string text(bool outermost = true) const {
+        if (below.empty()) return value;
+        std::string all;
+        for (auto const& [name, one] : below)
+            all += (all.empty() ? "" : outermost ? "\n" : ", ") + name + " = " + one.text(false);
+        return outermost ? all + "\n" : list ? "[ { " + all + " } ]" : "{ " + all + " }";
+    }
+};
+
+/// The key's path as refusals tell it.
+std::string told_path(std::string path) {
+    for (auto const& [old, fresh] : {std::pair<std::string, std::string>{"[]", "[0]"}, {"*", "matrix"}})
+        for (auto at = path.find(old); at != path.npos; at = path.find(old, at + fresh.size())) path.replace(at, old.size(), fresh);
+    return path;
+}
+
+std::string answer(tree const& file) {
+    try {
+        read_scenario(file.text(), "case.toml", "");
+    } catch (lacuna_run::refusal const& bad) {
+        return bad.what();
+    }
+    return "accepted";
+}
+
+/// A key elsewhere, and what stands there: "" nothing. Keys that begin with a dot stand beside the one that is tried.
+struct setting {
+    char const* path;
+    std::string value;
+};
+struct way {
+    setting kept, broken;
+};
+
+/// How a condition is kept, and how broken.
+way way_of(needs what) {
+    std::string const pores = "[ { volume = 1.0 } ]";
+    switch (what) {
+    case in_plane: return {{"simulation.dimension", "2"}, {"simulation.dimension", "3"}};
+    case with_particles: return {{"fluid.network.pores", ""}, {"fluid.network.pores", pores}};
+    case with_contacts: return {{"simulation.contact_law", "\"frictional_spring\""}, {"simulation.contact_law", "\"none\""}};
+    case with_hertz: return {{"simulation.contact_law", "\"hertz_mindlin\""}, {"simulation.contact_law", "\"frictional_spring\""}};
+    case with_bonds: return {{"simulation.bond_law", "\"brittle_spring\""}, {"simulation.bond_law", "\"none\""}};
+    case with_parallel_bonds: return {{"simulation.bond_law", "\"parallel_bond\""}, {"simulation.bond_law", "\"brittle_spring\""}};
+    case no_steps: return {{".steps", ""}, {".steps", "1"}};
+    case no_file: return {{".file", ""}, {".file", "\"x.csv\""}};
+    case touching_bonds: return {{".touching", "true"}, {".touching", ""}};
+    case listed_bonds: return {{".touching", ""}, {".touching", "true"}};
+    case young_given: return {{".young_modulus", "1e9"}, {".young_modulus", ""}};
+    case no_velocity: return {{".velocity", ""}, {".velocity", "[0.0, 0.0]"}};
+    case no_pressure: return {{".pressure", ""}, {".pressure", "1.0"}};
+    case pressure_given: return {{".pressure", "1.0"}, {".pressure", ""}};
+    case drained: return {{".boundary", "\"drained\""}, {".boundary", "\"sealed\""}};
+    case bare_network: return {{"fluid.network.pores", pores}, {"fluid.network.pores", ""}};
+    case no_pore: return {{".pore", ""}, {".pore", "0"}};
+    case no_throat: return {{".throat", ""}, {".throat", "0"}};
+    case constant_aperture: return {{".law", "\"constant\""}, {".law", "\"contact_force\""}};
+    case contact_aperture: return {{".law", "\"contact_force\""}, {".law", "\"constant\""}};
+    default: throw std::logic_error("a condition that the test does not know: " + std::to_string(what));
+    }
+}
+
+void put(tree& file, key const& row, setting const& s) {
+    if (s.value.empty()) return;
+    std::string path = s.path;
+    if (path[0] == '.') path = std::string(row.path).substr(0, std::string_view(row.path).rfind('.')) + path;
+    file.set(path, s.value);
+}
+
+/// A file in which the key stands with that value and means something, but for one condition.
+tree file_with(key const& row, std::string const& value, std::uint64_t broken = 0) {
+    tree file;
+    // What the tables above the key ask for.
+    std::uint64_t asked = row.where;
+    if ((asked & young_given) != 0) asked |= with_hertz;
+    std::string_view const path = row.path;
+    for (std::size_t at = path.find_first_of(".["); at != path.npos; at = path.find_first_of(".[", at + 1))
+        if (auto const* above = find_key(path.substr(0, at))) asked |= above->where;
+    for (condition const& c : conditions)
+        if ((asked & c.what) != 0) put(file, row, (broken & c.what) != 0 ? way_of(c.what).broken : way_of(c.what).kept);
+    file.set(path, value);
+    return file;
+}
+
+std::string number_text(double x) { return lacuna::to_text(x).find_first_of(".en") == std::string::npos ? lacuna::to_text(x) + ".0" : lacuna::to_text(x); }
+
+/// A good value of its kind.
+std::string sample(key const& row) {
+    rule const& r = row.good;
+    double const inside = std::isfinite(r.least) && std::isfinite(r.most) ? 0.5 * (r.least + r.most) : 1;
+    switch (row.what) {
+    case kind::table: return "{}";
+    case kind::tables: return "[]";
+    case kind::named: return "{}";
+    case kind::number:
+    case kind::step:
+    case kind::each_number: return number_text(inside);
+    case kind::whole: return std::to_string((long long)(inside));
+    case kind::flag: return "true";
+    case kind::word: return "\"" + std::string(r.choices).substr(0, std::string_view(r.choices).find('|')) + "\"";
+    case kind::text:
+    case kind::each_text: return "\"x\"";
+    case kind::vector: return "[0.0, 0.0]";
+    case kind::turn: return "0.0";
+    case kind::points: return "[[0.0, 0.0]]";
+    case kind::turns: return "[0.0]";
+    case kind::numbers: return "[0]";
+    case kind::pairs: return "[[0, 1]]";
+    case kind::two: return "[0, 1]";
+    case kind::index: return "0";
+    case kind::quantity: return "\"energy.kinetic\"";
+    }
+    return {};
+}
+
+} // namespace
+
+TEST_CASE("each key is read as its row says", "[keys]") {
+    for (key const& row : keys) {
+        std::string const path = told_path(row.path);
+        INFO(path << "\n" << file_with(row, sample(row)).text());
+        auto const refused = [&](std::string const& value, std::string const& message, std::uint64_t broken = 0) {
+            INFO(value);
+            REQUIRE_THAT(answer(file_with(row, value, broken)), contains_text(message));
+        };
+        // A good value: what is missing elsewhere is refused, if anything.
+        auto const good = answer(file_with(row, sample(row)));
+        if (std::string_view(row.path).find('.') != std::string_view::npos && row.what != kind::tables && row.what != kind::table) {
+            REQUIRE(good.rfind(path + " = ", 0) == std::string::npos);
+            REQUIRE(good.rfind(path + "[", 0) == std::string::npos);
+        }
+        // A wrong type.
+        if (std::string_view(row.path) != "materials.*") refused("1979-05-27", path + " = a date or time: must be ");
+        // A key that is nearly that one.
+        tree misspelt = file_with(row, sample(row));
+        misspelt.set(std::string(row.path) + (row.what == kind::named ? "q.q" : "q"), sample(row));
+        if (std::string_view(row.path).back() != '*')
+            REQUIRE_THAT(answer(misspelt), contains_text(path + "q = ") && contains_text("must be a known key (did you mean"));
+        // Outside of what is good.
+        if (row.what == kind::number || row.what == kind::each_number || row.what == kind::step) {
+            if (std::isfinite(row.good.least)) refused(number_text(row.good.least - 1), "must be " + std::string(row.good.text));
+            if (row.good.above_least) refused(number_text(row.good.least), path + " = " + lacuna::to_text(row.good.least) + ": must be");
+            if (std::isfinite(row.good.most)) refused(number_text(row.good.most + 1), "must be " + std::string(row.good.text));
+            refused("nan", path + " = nan: must be finite");
+        }
+        if (row.what == kind::whole) {
+            refused(std::to_string((long long)(row.good.least) - 1), "must be " + std::string(row.good.text));
+            refused(std::to_string((long long)(row.good.most) + 1), "must be " + std::string(row.good.text));
+            refused("1.5", path + " = 1.5: must be a whole number");
+        }
+        if (row.what == kind::word) refused("\"qqqqqqqqqq\"", path + " = \"qqqqqqqqqq\": must be one of ");
+        // Where it means nothing.
+        for (condition const& c : conditions)
+            if ((row.where & c.what) != 0) {
+                auto const message = answer(file_with(row, sample(row), c.what));
+                INFO(c.otherwise << ": " << message);
+                REQUIRE_THAT(message, contains_text(path + " = ") && contains_text(c.otherwise));
+            }
+    }
+}
+
+TEST_CASE("the README and --help show the keys that there are", "[keys]") {
+    std::string const readme = program::read_file(std::string(LACUNA_RUN_CASES) + "/../README.md");
+    std::string const help = keys_help();
+    std::string all;
+    for (char const* section : sections) all += keys_markdown(section) + "\n";
+    all += quantities_markdown();
+    std::ofstream(std::string(LACUNA_RUN_SCRATCH) + "_keys.md") << all;
+    INFO("the tables as they should be: " LACUNA_RUN_SCRATCH "_keys.md");
+    for (char const* section : sections) REQUIRE_THAT(readme, contains_text(keys_markdown(section)));
+    REQUIRE_THAT(readme, contains_text(quantities_markdown()));
+    std::size_t tables = 0;
+    for (auto at = readme.find("\n| `["); at != readme.npos; at = readme.find("\n| `[", at + 1)) ++tables;
+    REQUIRE(tables == std::size(sections));
+    for (key const& row : keys) {
+        std::string_view const path = row.path;
+        auto const dot = path.find('.');
+        if (dot == path.npos || path == "materials.*" || *row.meaning == '\0') continue;
+        std::string name(path.substr(dot + 1));
+        if (name.rfind("*.", 0) == 0) name = name.substr(2);
+        REQUIRE_THAT(help, contains_text("\n  " + name));
+    }
+    std::size_t column = 0;
+    for (char const c : help) {
+        column = c == '\n' ? 0 : column + 1;
+        REQUIRE(column <= 120);
+    }
+}
