@@ -7,11 +7,11 @@ set -eu
 
 case "${1:-}" in
 demo)
-    wanted="g++ make cmake libeigen3-dev libnanoflann-dev libqhull-dev libcairo2-dev libspectra-dev libcli11-dev
+    wanted="g++ make cmake libeigen3-dev libnanoflann-dev libqhull-dev libcairo2-dev libcli11-dev
         nlohmann-json3-dev libcereal-dev"
     ;;
 check)
-    wanted="g++ make cmake libeigen3-dev libnanoflann-dev libqhull-dev libcairo2-dev libspectra-dev libcli11-dev
+    wanted="g++ make cmake libeigen3-dev libnanoflann-dev libqhull-dev libcairo2-dev libcli11-dev
         libtomlplusplus-dev nlohmann-json3-dev libcereal-dev libnlopt-dev zlib1g-dev catch2 libbenchmark-dev
         python3-vtk9 doxygen"
     # Ubuntu's package of that name is none. Without, the test that looks at a report in a browser is left out.

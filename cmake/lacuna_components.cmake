@@ -7,7 +7,7 @@ set(LACUNA_CORE_TARGETS Eigen3::Eigen nanoflann::nanoflann)
 # Each optional component: what it is, the package to find, the target to link, and the third-party headers
 # by which a header or a source is known to need it (none: never needed, only used when there); what pkg-config requires
 # for it, and which flags (none: its headers are where a compiler looks anyway).
-set(LACUNA_COMPONENTS pores pictures spectra checkpoints compression openmp)
+set(LACUNA_COMPONENTS pores pictures checkpoints compression openmp)
 
 set(LACUNA_pores_WHAT "triangulations, Qhull's reentrant library")
 set(LACUNA_pores_PACKAGE LacunaQhull)
@@ -20,11 +20,6 @@ set(LACUNA_pictures_PACKAGE LacunaCairo)
 set(LACUNA_pictures_TARGET LacunaCairo::cairo)
 set(LACUNA_pictures_HEADERS "^(cairo/)?cairo(-svg|-features)?\\.h$")
 set(LACUNA_pictures_PC_REQUIRES cairo cairo-png cairo-svg)
-
-set(LACUNA_spectra_WHAT "largest eigenvalues, Spectra")
-set(LACUNA_spectra_PACKAGE Spectra NAMES Spectra spectra)
-set(LACUNA_spectra_TARGET Spectra::Spectra)
-set(LACUNA_spectra_HEADERS "^Spectra/")
 
 set(LACUNA_checkpoints_WHAT "checkpoints, cereal")
 set(LACUNA_checkpoints_PACKAGE cereal CONFIG)

@@ -8,8 +8,7 @@
 #include <limits>
 #include <vector>
 
-#include <Eigen/SparseCholesky>
-
+#include <lacuna/core/eigen_sparse.hpp>
 #include <lacuna/particles/random_packing.hpp>
 #include <lacuna/pores/flow_boundaries.hpp>
 #include <lacuna/pores/implicit_flow.hpp>

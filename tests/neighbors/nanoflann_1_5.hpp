@@ -7,6 +7,7 @@
 ///
 /// * `SearchParams` is called `SearchParameters`, and has a default value in every search (from 1.5 on);
 /// * a result set must name its `DistanceType` and offer `empty()` (later ones, as 1.12);
+/// * it must name its `IndexType`, that of the tree (1.10 and later);
 /// * a search that is to be sorted, the default, calls `sort()` of the result set (later ones, as 1.12).
 ///
 /// The tree itself is the real one. Where nanoflann is 1.5 or newer itself, only the last two are laid on top.
@@ -41,6 +42,7 @@ public:
         auto const worst = static_cast<typename ResultSet::DistanceType>(result.worstDist());
         static_assert(std::is_same_v<decltype(worst), typename Distance::DistanceType const>);
         static_assert(std::is_same_v<decltype(std::as_const(result).empty()), bool>);
+        static_assert(std::is_same_v<typename ResultSet::IndexType, Index>);
         SearchParameters unsorted = parameters;
         unsorted.sorted = false;
         base::findNeighbors(result, at, unsorted);

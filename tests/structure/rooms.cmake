@@ -17,11 +17,9 @@ set(motion_MAY core particles)
 set(observe_MAY core)
 
 # Third-party headers and the rooms that may include them.
-set(THIRD_PARTY eigen spectra nanoflann qhull cairo cereal zlib intrinsics programs)
+set(THIRD_PARTY eigen nanoflann qhull cairo cereal zlib intrinsics programs)
 set(eigen_HEADERS "^(unsupported/)?Eigen/")
 set(eigen_ROOMS core pores motion)
-set(spectra_HEADERS "^Spectra/")
-set(spectra_ROOMS motion)
 set(nanoflann_HEADERS "^nanoflann")
 set(nanoflann_ROOMS neighbors)
 set(qhull_HEADERS "^libqhull")
@@ -148,7 +146,10 @@ foreach(header IN LISTS headers)
 endforeach()
 
 # Depth by rounds: a header is as deep as the deepest that it includes, plus one; what never settles is a ring.
+# core/standard.hpp is below all.
+set(depth_core/standard.hpp 0)
 set(open ${headers})
+list(REMOVE_ITEM open core/standard.hpp)
 while(open)
   set(next "")
   foreach(header IN LISTS open)

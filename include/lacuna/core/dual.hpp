@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
+
 #include <lacuna/core/scalar.hpp>
 
 namespace lacuna {
@@ -9,7 +11,7 @@ namespace lacuna {
 template <class T, int N>
 struct dual {
     T value{};
-    T derivative[N]{};
+    T derivative[std::size_t(N)]{};
 
     constexpr dual() = default;
     constexpr dual(T v) noexcept : value(v) {} // NOLINT: a plain number is a dual with zero derivatives

@@ -8,6 +8,8 @@
 #include <string>
 #include <string_view>
 
+#include <lacuna/core/standard.hpp>
+
 namespace lacuna {
 
 /// A run that left the range in which its results mean anything: not-a-number, runaway energy, an overlap

@@ -3,6 +3,8 @@
 
 #include <cstddef>
 
+#include <lacuna/core/standard.hpp>
+
 /// \file
 /// Asking the memory for what a loop will read, while it computes. Nothing here changes a result, and addresses that
 /// are nobody's do no harm.

@@ -18,8 +18,10 @@
 // Packs wider than the target's registers (records of four doubles without AVX) are never part of an interface
 // between separately compiled objects: the compilers' warning about their calling convention does not apply.
 #if defined(__clang__)
+#pragma clang diagnostic push
 #pragma clang diagnostic ignored "-Wpsabi"
 #elif defined(__GNUC__)
+#pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wpsabi"
 #endif
 
@@ -202,3 +204,9 @@ constexpr T sum(T a) noexcept {
 }
 
 } // namespace lacuna
+
+#if defined(__clang__)
+#pragma clang diagnostic pop
+#elif defined(__GNUC__)
+#pragma GCC diagnostic pop
+#endif

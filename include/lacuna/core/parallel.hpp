@@ -3,6 +3,8 @@
 
 #ifdef _OPENMP
 #include <omp.h>
+
+#include <lacuna/core/standard.hpp>
 #endif
 
 namespace lacuna {

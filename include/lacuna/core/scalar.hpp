@@ -4,6 +4,8 @@
 #include <cmath>
 #include <concepts>
 
+#include <lacuna/core/standard.hpp>
+
 /// \file
 /// The functions in which laws are written, for plain numbers. core/pack.hpp and core/dual.hpp offer the same
 /// for a row of numbers and for a number with its derivatives; a formula that keeps to them works with all.

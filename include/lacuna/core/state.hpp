@@ -4,6 +4,8 @@
 #include <stdexcept>
 #include <string>
 
+#include <lacuna/core/standard.hpp>
+
 /// \file
 /// How a class takes part in checkpoints: by a member `template <class Archive> void serialize(Archive& ar)` that
 /// names, in one call ar(a, b, ...), what a run changes, for writing and reading alike. Archives are cereal's

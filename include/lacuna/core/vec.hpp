@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
+
 #include <lacuna/core/scalar.hpp>
 
 namespace lacuna {
@@ -13,7 +15,7 @@ namespace lacuna {
 template <class T, int N>
 struct vec {
     static_assert(N >= 1 && N <= 4);
-    T element[N];
+    T element[std::size_t(N)];
 
     constexpr T& operator[](int i) noexcept { return element[i]; }
     constexpr T const& operator[](int i) const noexcept { return element[i]; }

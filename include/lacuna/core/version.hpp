@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <lacuna/core/standard.hpp>
+
 /// \file
 /// Version of the library. CMake reads these three lines: they are the only place where it stands.
 

@@ -6,6 +6,8 @@
 #include <limits>
 #include <vector>
 
+#include <lacuna/core/standard.hpp>
+
 namespace lacuna {
 
 /// Chunks of particles, cut into runs that threads go through at the same time: each evaluates the pairs of its

@@ -118,13 +118,13 @@ pair_frame<T, Dim> relative_motion(relative_state<T, Dim> const& state, T const&
         T e = dot(arm, step) * inverse_squared;
         T t = cross(arm, step) * inverse_squared * ((T(1) + e) * (T(1) + e * e));
         T t2 = t * t;
-        T angle = t - t * t2 * (T(1.0 / 3) - t2 * T(0.2));
+        T angle = t - t * t2 * (T(value_t<T>(1.0 / 3)) - t2 * T(value_t<T>(0.2)));
         frame.motion.slip = {distance * (angle - rolling[0])};
     } else {
         auto before = arm - step;
         frame.previous_normal = before / sqrt(squared_norm(before));
         auto middle = (frame.normal + frame.previous_normal) * T(0.5);
-        T chord = T(1) + squared_norm(rolling) * T(1.0 / 12);
+        T chord = T(1) + squared_norm(rolling) * T(value_t<T>(1.0 / 12));
         auto slip = (frame.normal - frame.previous_normal - cross(rolling, middle) * chord) * distance;
         frame.motion.slip = slip - frame.normal * dot(frame.normal, slip);
         frame.twist = dot(rolling, frame.normal);

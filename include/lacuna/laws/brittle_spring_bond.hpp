@@ -18,7 +18,7 @@ struct smaller_particle_area {
         if constexpr (Dim == 2)
             return T(2) * r * thickness;
         else
-            return T(3.14159265358979323846) * r * r;
+            return T(value_t<T>(3.14159265358979323846)) * r * r;
     }
 };
 

@@ -29,7 +29,7 @@ public:
     explicit frequency_bound(std::size_t particles) : root_mobility_(particles), block_(particles), beside_(particles) {}
 
     /// Square roots come from here: inverse mass along `axis` (axis >= Dim: inverse moment of inertia), 0 if fixed.
-    void set_mobility(std::size_t k, int axis, double mobility) { root_mobility_[k][axis] = std::sqrt(mobility); }
+    void set_mobility(std::size_t k, int axis, double mobility) { root_mobility_[k][std::size_t(axis)] = std::sqrt(mobility); }
 
     /// A spring between two particles: stiffness k_n along the normal, k_s across it with lever arms to the
     /// centres, and a prestress stiffness (force over distance) across it, without lever arms. N/m, m.
@@ -74,13 +74,13 @@ public:
     void add(std::array<std::size_t, Count> const& who, std::array<gradient, Count> const& g, double stiffness) {
         for (std::size_t p = 0; p < Count; ++p)
             for (int a = 0; a < freedoms; ++a) {
-                double const ga = g[p][std::size_t(a)] * root_mobility_[who[p]][a];
+                double const ga = g[p][std::size_t(a)] * root_mobility_[who[p]][std::size_t(a)];
                 if (ga == 0) continue;
                 auto& own = block_[who[p]];
                 auto& beside = beside_[who[p]];
                 for (std::size_t q = 0; q < Count; ++q)
                     for (int b = 0; b < freedoms; ++b) {
-                        double const entry = stiffness * ga * g[q][std::size_t(b)] * root_mobility_[who[q]][b];
+                        double const entry = stiffness * ga * g[q][std::size_t(b)] * root_mobility_[who[q]][std::size_t(b)];
                         if (q == p)
                             own[std::size_t(a * freedoms + b)] += entry;
                         else
@@ -135,8 +135,8 @@ private:
         }
     }
     /// The normal and the tangents.
-    static std::array<point, Dim> frame(point const& normal) {
-        std::array<point, Dim> axes{};
+    static std::array<point, std::size_t(Dim)> frame(point const& normal) {
+        std::array<point, std::size_t(Dim)> axes{};
         axes[0] = normal;
         if constexpr (Dim == 2) {
             axes[1] = perpendicular(normal);

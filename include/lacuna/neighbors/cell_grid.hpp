@@ -261,7 +261,7 @@ private:
     int threads_ = 1;
     std::vector<std::vector<neighbor_pair>> parts_;
     // By slot: the particles in the order of their cells, and by their number in that cell.
-    std::array<std::vector<Real>, Dim> position_;
+    std::array<std::vector<Real>, std::size_t(Dim)> position_;
     std::vector<Real> radius_;
     std::vector<std::int32_t> index_;
     std::vector<std::uint64_t> row_;

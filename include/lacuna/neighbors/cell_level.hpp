@@ -13,7 +13,7 @@ namespace lacuna::detail {
 template <class Real, int Dim>
 struct cell_level {
     /// Cell coordinate along each axis.
-    using cell_index = std::array<std::int64_t, Dim>;
+    using cell_index = std::array<std::int64_t, std::size_t(Dim)>;
 
     Real reach = 0;
     Real cells_per_length = 0;

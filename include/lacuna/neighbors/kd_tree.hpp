@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <memory>
 
 #include <nanoflann.hpp>
@@ -32,6 +33,7 @@ template <class Real, int Dim>
 class tree_row {
 public:
     using DistanceType = Real;
+    using IndexType = std::uint32_t;
 
     tree_row(tree_points<Real, Dim> const& points, std::size_t i, std::vector<neighbor_pair>& out)
         : points_(points), i_(i), out_(out) {

@@ -12,6 +12,8 @@
 #if __has_include(<unistd.h>)
 #include <fcntl.h>
 #include <unistd.h>
+
+#include <lacuna/core/standard.hpp>
 #endif
 
 namespace lacuna {

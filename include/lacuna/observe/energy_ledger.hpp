@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <lacuna/core/standard.hpp>
+
 namespace lacuna {
 
 /// Where the energy of a run is, and where it went. All in J, all at the positions of the last forces.

@@ -4,6 +4,8 @@
 #include <concepts>
 #include <type_traits>
 
+#include <lacuna/core/standard.hpp>
+
 namespace lacuna {
 
 /// Moments of a run at which an observer can be called.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <lacuna/observe/plot.hpp>
@@ -43,8 +44,12 @@ inline double tornado_height(std::vector<tornado_row> const& rows, plot_style co
 /// stand left of the frame, what a choice was changed to at the end of its bar. \param change axis of the change
 inline void draw_tornado(canvas& page, rectangle const& frame, std::vector<tornado_row> rows, plot_axis change,
                          plot_style const& style = {}) {
-    std::stable_sort(rows.begin(), rows.end(),
-                     [](tornado_row const& a, tornado_row const& b) { return a.reach() > b.reach(); });
+    std::vector<std::pair<double, std::size_t>> order;
+    for (std::size_t k = 0; k < rows.size(); ++k) order.emplace_back(-rows[k].reach(), k);
+    std::sort(order.begin(), order.end());
+    std::vector<tornado_row> sorted;
+    for (auto const& [reach, k] : order) sorted.push_back(std::move(rows[k]));
+    rows = std::move(sorted);
     double slots = 0;
     std::vector<plot_tick> names;
     for (tornado_row const& row : rows) {

@@ -140,8 +140,10 @@ inline std::size_t fill_holes(disc_bed& bed, random_source& random, radius_range
             });
             if (clearance >= least * range.low) holes.push_back({p, clearance});
         }
-    std::stable_sort(holes.begin(), holes.end(),
-                     [](hole const& a, hole const& b) { return a.clearance > b.clearance; });
+    std::sort(holes.begin(), holes.end(), [](hole const& a, hole const& b) {
+        if (a.clearance != b.clearance) return a.clearance > b.clearance;
+        return a.x[1] != b.x[1] ? a.x[1] < b.x[1] : a.x[0] < b.x[0];
+    });
     double filled = 0;
     for (std::size_t i = bed.fixed; i < bed.x.size(); ++i) filled += pi * bed.r[i] * bed.r[i];
     std::size_t const before = bed.x.size();

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <random>
 
+#include <lacuna/core/standard.hpp>
+
 namespace lacuna {
 
 /// The random numbers of the packing generators: the same seed gives the same numbers with every compiler and

@@ -19,7 +19,7 @@ namespace detail {
 /// Place along the Hilbert curve of a cell with coordinates below 2^Bits (J. Skilling, "Programming the Hilbert
 /// curve", AIP Conf. Proc. 707, 381 (2004)).
 template <int Dim, int Bits>
-constexpr std::uint64_t hilbert_key(std::uint32_t (&x)[Dim]) noexcept {
+constexpr std::uint64_t hilbert_key(std::uint32_t (&x)[std::size_t(Dim)]) noexcept {
     static_assert(Dim * Bits <= 64 && Bits <= 31);
     for (std::uint32_t q = 1u << (Bits - 1); q > 1; q >>= 1) {
         std::uint32_t const p = q - 1;
@@ -54,7 +54,7 @@ constexpr std::uint64_t hilbert_key(std::uint32_t (&x)[Dim]) noexcept {
 template <class Real, int Dim>
 std::vector<std::int32_t> spatial_order(points_view<Real, Dim> points) {
     constexpr int bits = 16;
-    Real low[Dim], span = 0;
+    Real low[std::size_t(Dim)], span = 0;
     for (int axis = 0; axis < Dim; ++axis) {
         Real high = low[axis] = points.size() ? points(0, axis) : Real(0);
         for (std::size_t i = 0; i < points.size(); ++i) {
@@ -75,7 +75,7 @@ std::vector<std::int32_t> spatial_order(points_view<Real, Dim> points) {
         return a.second < b.second;
     };
     for (std::size_t i = 0; i < points.size(); ++i) {
-        std::uint32_t cell[Dim];
+        std::uint32_t cell[std::size_t(Dim)];
         for (int axis = 0; axis < Dim; ++axis)
             cell[axis] = span > Real(0)
                              ? std::uint32_t(double(points(i, axis) - low[axis]) / double(span) * 65535.0 + 0.5)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <lacuna/core/standard.hpp>
+
 namespace lacuna {
 
 /// Running totals of a flow solver, and the balance of its last step. With E = flow.storage_energy() every step keeps

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include <lacuna/core/error.hpp>
@@ -39,8 +40,8 @@ public:
                                   source.kind == flow_source_kind::rate ? source.shares[k] : 0, 0, 0, 0});
         }
         auto const held = [&](fed_pore const& f) { return net.sources[f.source].kind == flow_source_kind::pressure; };
-        std::stable_sort(pores_.begin(), pores_.end(), [&](fed_pore const& a, fed_pore const& b) {
-            return a.pore != b.pore ? a.pore < b.pore : held(a) < held(b);
+        std::sort(pores_.begin(), pores_.end(), [&](fed_pore const& a, fed_pore const& b) {
+            return std::tuple(a.pore, held(a), a.source, a.share) < std::tuple(b.pore, held(b), b.source, b.share);
         });
         for (std::size_t k = 1; k < pores_.size(); ++k)
             if (pores_[k].pore == pores_[k - 1].pore && held(pores_[k - 1]))

@@ -8,10 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-#include <Eigen/OrderingMethods>
-#include <Eigen/SparseCholesky>
-#include <Eigen/SparseCore>
-
+#include <lacuna/core/eigen_sparse.hpp>
 #include <lacuna/core/state.hpp>
 #include <lacuna/pores/padded_array.hpp>
 

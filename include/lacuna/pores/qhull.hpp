@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include <lacuna/core/standard.hpp>
+
 extern "C" {
 #include <libqhull_r/libqhull_r.h>
 

@@ -33,7 +33,7 @@ void add_fluid_stiffness(frequency_bound<Dim>& bound, Store const& store, Flow c
         std::array<typename frequency_bound<Dim>::gradient, std::size_t(Dim) + 1> g{};
         for (std::size_t c = 0; c < who.size(); ++c) {
             who[c] = std::size_t(net.corner[c][p]);
-            for (int axis = 0; axis < Dim; ++axis) g[c][axis] = double(tractions[c][axis]);
+            for (int axis = 0; axis < Dim; ++axis) g[c][std::size_t(axis)] = double(tractions[c][axis]);
         }
         bound.add(who, g, flow.settings().bulk_modulus / double(net.volume[p]));
     }
