@@ -4,12 +4,18 @@
 
 #include <lacuna/core/vec.hpp>
 #include <lacuna/core/version.hpp>
+#include <lacuna/particles/hexagonal.hpp>
+#include <lacuna/simulation.hpp>
 
 // Every header that the consumer sees, so that one missing from the installed set is missed here.
 #include "every_header.hpp"
 
+struct model : lacuna::default_model<2> {};
+
 int main() {
+    lacuna::simulation<model> sim(lacuna::chain<double, 2>(3, 0.5, true));
+    sim.run(2);
     lacuna::vec<double, 2> const a{3.0, 4.0};
     std::printf("lacuna %d.%d.%d\n", LACUNA_VERSION_MAJOR, LACUNA_VERSION_MINOR, LACUNA_VERSION_PATCH);
-    return lacuna::norm(a) == 5.0 ? 0 : 1;
+    return lacuna::norm(a) == 5.0 && sim.steps() == 2 ? 0 : 1;
 }

@@ -12,6 +12,11 @@ get_property(tests DIRECTORY "${LACUNA_DIR}" PROPERTY TESTS)
 if(tests)
   message(FATAL_ERROR "tests are added to another project: ${tests}")
 endif()
+get_target_property(system lacuna SYSTEM)
+if(NOT system)
+  message(FATAL_ERROR "another project gets our headers as its own: their warnings would be its warnings")
+endif()
+# The rules are written at the end of the configuration: run.cmake looks at them.
 file(WRITE "${CMAKE_CURRENT_BINARY_DIR}/every_header.hpp" "")
 
 add_executable(consumer "${CMAKE_CURRENT_LIST_DIR}/consumer.cpp")

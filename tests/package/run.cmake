@@ -72,6 +72,15 @@ run("${CMAKE_COMMAND}" ${tools} -S "${project}" -B "${SCRATCH}/build" ${choices}
   -D "CMAKE_PREFIX_PATH=${prefix}" -D "LACUNA_DIR=${SOURCE}" -D "LACUNA_CLONE=${clone}" -D "LACUNA_COMMIT=${commit}"
   -D "EXPECTED_VERSION=${VERSION}" -D "EXPECTED_COMPONENTS=${COMPONENTS}" -D "OTHER_COMPONENTS=${others}"
   -D "EVERY_HEADER=${every_header}")
+if(WAY STREQUAL "add_subdirectory" OR WAY STREQUAL "fetch_content")
+  file(GLOB_RECURSE rules "${SCRATCH}/build/cmake_install.cmake")
+  foreach(file IN LISTS rules)
+    file(STRINGS "${file}" installs REGEX "^ *file\\(INSTALL")
+    if(installs)
+      message(FATAL_ERROR "another project installs files of ours: ${file}: ${installs}")
+    endif()
+  endforeach()
+endif()
 run("${CMAKE_COMMAND}" --build "${SCRATCH}/build")
 run("${SCRATCH}/build/consumer")
 # The consumer prints what version.hpp says.

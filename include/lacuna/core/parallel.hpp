@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <lacuna/core/standard.hpp>
+
 #ifdef _OPENMP
 #include <omp.h>
-
-#include <lacuna/core/standard.hpp>
 #endif
 
 namespace lacuna {

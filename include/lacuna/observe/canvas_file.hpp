@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <lacuna/core/standard.hpp>
+
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -12,8 +14,6 @@
 #if __has_include(<unistd.h>)
 #include <fcntl.h>
 #include <unistd.h>
-
-#include <lacuna/core/standard.hpp>
 #endif
 
 namespace lacuna {
