@@ -150,7 +150,7 @@ std::string page_of(calibrate_options const& o, std::vector<calibrated_set> cons
 
 std::string calibration_csv(calibrate_options const& o, std::vector<calibrated_set> const& sets) {
     std::string text = "set,misfit";
-    for (choice_field const* f : o.free) text += "," + std::string(f->name);
+    for (choice_field const* f : o.free) text.append(",").append(f->name);
     std::vector<target_result> columns;
     for (calibrated_set const& set : sets)
         if (!set.targets.empty()) columns = set.targets;
@@ -163,7 +163,7 @@ std::string calibration_csv(calibrate_options const& o, std::vector<calibrated_s
     text += "\n";
     for (std::size_t k = 0; k < sets.size(); ++k) {
         text += std::to_string(k + 1) + "," + (std::isnan(sets[k].misfit) ? "" : lacuna::to_text(sets[k].misfit));
-        for (choice_field const* f : o.free) text += "," + f->text(sets[k].open);
+        for (choice_field const* f : o.free) text.append(",").append(f->text(sets[k].open));
         for (std::size_t c = 0; c < columns.size(); ++c) {
             text += ",";
             if (c < sets[k].targets.size() && sets[k].targets[c].packings > 0)

@@ -93,10 +93,10 @@ std::string sensitivity_csv(std::vector<variation> const& variations, choices co
     for (variation const& v : variations)
         for (change_of_load const& c : v.changes) {
             text.append(v.field->name).append(",").append(v.field->unit).append(",").append(v.field->text(base));
-            text += "," + v.field->text(v.value) + "," + std::string(lacuna::to_string(c.zone)) + "," +
-                    name_of(c.what) + "," + std::to_string(c.pairs);
+            text.append(",").append(v.field->text(v.value)).append(",").append(lacuna::to_string(c.zone)).append(",");
+            text.append(name_of(c.what)).append(",").append(std::to_string(c.pairs));
             for (double const value : {c.before, c.after, c.change, c.of_change.low, c.of_change.high})
-                text += "," + number_or_empty(value);
+                text.append(",").append(number_or_empty(value));
             text += "\n";
         }
     return text;
