@@ -245,6 +245,7 @@ TEST_CASE("A study as text is the same study, bit for bit") {
     s.dry = true;
     s.step_share = 0.8;
     s.length_um = 0.1 + 0.2;
+    s.lowest_MPa = 0.1;
     packing_result r;
     r.zone = lacuna::cartilage_zone::deep;
     r.seed = UINT64_MAX;
@@ -259,7 +260,10 @@ TEST_CASE("A study as text is the same study, bit for bit") {
     p.invalid = "why \\ not";
     p.cracks = {{1e-9 / 3, 1e-5 / 7, 2e-4 / 9, true, 3}, {2e-9, 0, 0, false, -1}};
     p.layers = {{"deep", 2, 40, 7, 3e-9 / 11}, {"deep", 3, 1, 0, std::nullopt}};
-    r.probes = {p, probe{}};
+    probe sound;
+    sound.load_MPa = 100;
+    sound.ended = "limit";
+    r.probes = {p, sound};
     s.packings = {r};
     snapshot shot;
     shot.figure = "11";
