@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include <lacuna/core/text.hpp>
 #include <lacuna/laws/aperture.hpp>
 #include <lacuna/observe/canvas_file.hpp>
 #include <lacuna/particles/packing.hpp>
@@ -87,10 +88,9 @@ void save_table(std::string const& path, std::vector<apertures::curve> const& cu
     file.write("law,normal_force_N,gap_m,aperture_m,conductance_m3_per_Pa_s\n");
     for (auto const& c : curves)
         for (auto const& s : c.samples) {
-            char line[160];
-            std::snprintf(line, sizeof line, "%s,%.9e,%.9e,%.9e,%.9e\n", c.law.c_str(), s.force, s.gap, s.aperture,
-                          s.conductance);
-            file.write(line);
+            std::string line = c.law;
+            for (double const x : {s.force, s.gap, s.aperture, s.conductance}) line += lacuna::formatted(",%.9e", x);
+            file.write(line + "\n");
         }
     file.commit();
 }

@@ -3,9 +3,10 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
 #include <map>
 #include <utility>
+
+#include <lacuna/core/text.hpp>
 
 namespace cartilage {
 
@@ -73,16 +74,10 @@ lacuna::scene damage_scene(specimen const& s, options const& o, std::span<lacuna
     for (auto i : s.loaded) picture.loads.push_back({position[std::size_t(i)], {0, -1}});
     picture.pores = std::move(pores);
 
-    char line[96];
-    std::snprintf(line, sizeof line, ", t = %.2f ns", 1e9 * time);
-    picture.subtitle += line;
+    picture.subtitle += lacuna::formatted(", t = %.2f ns", 1e9 * time);
     double const share = intact.empty() ? 0.0 : 100.0 * double(cracks.size()) / double(intact.size());
-    std::snprintf(line, sizeof line, "%zu bonds broken (%.1f %%)", cracks.size(), share);
-    picture.captions.emplace_back(line);
-    if (!cracks.empty()) {
-        std::snprintf(line, sizeof line, "first at %.2f ns", 1e9 * cracks.front().time);
-        picture.captions.emplace_back(line);
-    }
+    picture.captions.push_back(std::to_string(cracks.size()) + lacuna::formatted(" bonds broken (%.1f %%)", share));
+    if (!cracks.empty()) picture.captions.push_back(lacuna::formatted("first at %.2f ns", 1e9 * cracks.front().time));
     return picture;
 }
 

@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <exception>
 #include <limits>
 #include <map>
@@ -12,6 +10,7 @@
 #include <stdexcept>
 
 #include <lacuna/core/error.hpp>
+#include <lacuna/core/text.hpp>
 
 #ifdef CARTILAGE_HAS_NLOPT
 #include <nlopt.h>
@@ -35,9 +34,7 @@ double value_at(choice_field const& f, double share) {
     double const low = f.fit[0], high = f.fit[1];
     bool const logarithmic = f.steps == choice_field::scale::logarithmic;
     double const exact = logarithmic ? low * std::pow(high / low, share) : low + (high - low) * share;
-    char digits[32];
-    std::snprintf(digits, sizeof digits, "%.3g", exact);
-    return std::clamp(std::strtod(digits, nullptr), low, high);
+    return std::clamp(lacuna::number_of(lacuna::formatted("%.3g", exact)).value(), low, high);
 }
 
 bool is_number(choice_field const& f) { return f.type == choice_field::kind::number; }

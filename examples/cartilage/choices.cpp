@@ -2,10 +2,10 @@
 #include "choices.hpp"
 
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 
 #include <lacuna/core/error.hpp>
+#include <lacuna/core/text.hpp>
 
 namespace cartilage {
 
@@ -180,12 +180,6 @@ std::vector<choice_field> make_fields() {
     return f;
 }
 
-std::string_view trimmed(std::string_view text) {
-    auto const first = text.find_first_not_of(" \t\r");
-    if (first == std::string_view::npos) return {};
-    return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
-
 double value_of(choice_field const& f, std::string_view text) {
     std::string const word(text);
     if (f.type == kind::word) {
@@ -193,11 +187,10 @@ double value_of(choice_field const& f, std::string_view text) {
             if (f.words[k] == text) return double(k);
         lacuna::refuse(f.name, word.empty() ? "''" : word, f.rule);
     }
-    char* end = nullptr;
-    double const value = std::strtod(word.c_str(), &end);
-    bool const whole = f.type != kind::count || value == std::floor(value);
-    if (word.empty() || *end != '\0' || !whole) lacuna::refuse(f.name, word.empty() ? "''" : word, f.rule);
-    return value;
+    auto const value = lacuna::number_of(word);
+    bool const whole = f.type != kind::count || (value && *value == std::floor(*value));
+    if (!value || !whole) lacuna::refuse(f.name, word.empty() ? "''" : word, f.rule);
+    return *value;
 }
 
 } // namespace
@@ -249,8 +242,8 @@ void set_choice(choices& c, std::string_view assignment) {
     auto const sign = assignment.find('=');
     if (sign == std::string_view::npos)
         lacuna::refuse("choice", assignment.empty() ? "''" : assignment, "of the form name=value");
-    choice_field const& f = find_choice(trimmed(assignment.substr(0, sign)));
-    double const value = value_of(f, trimmed(assignment.substr(sign + 1)));
+    choice_field const& f = find_choice(lacuna::trimmed(assignment.substr(0, sign)));
+    double const value = value_of(f, lacuna::trimmed(assignment.substr(sign + 1)));
     f.validate(value);
     f.set(c, value);
 }
@@ -261,7 +254,7 @@ void set_choices(choices& c, std::string_view text, std::string const& origin) {
         auto const end = text.find('\n');
         std::string_view one = text.substr(0, end);
         text = end == std::string_view::npos ? std::string_view{} : text.substr(end + 1);
-        one = trimmed(one.substr(0, one.find('#')));
+        one = lacuna::trimmed(one.substr(0, one.find('#')));
         if (one.empty()) continue;
         try {
             set_choice(changed, one);

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <system_error>
 
+#include <lacuna/core/text.hpp>
 #include <lacuna/observe/canvas_file.hpp>
 #include <lacuna/observe/progress.hpp>
 
@@ -52,11 +53,7 @@ void print_row(std::FILE* out, char const* name, std::string const& text) {
     std::fprintf(out, "  %-22s %s\n", name, text.c_str());
 }
 
-std::string number(char const* format, double v) {
-    char buffer[64];
-    std::snprintf(buffer, sizeof buffer, format, v);
-    return buffer;
-}
+std::string number(char const* format, double v) { return lacuna::formatted(format, v); }
 
 } // namespace
 

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <exception>
 #include <map>
 #include <memory>
@@ -11,6 +10,7 @@
 #include <optional>
 #include <utility>
 
+#include <lacuna/core/text.hpp>
 #include <lacuna/observe/progress.hpp>
 
 #include "cache.hpp"
@@ -110,9 +110,7 @@ std::string median_text(std::vector<packing_result> const& packings, lacuna::car
     if (loads.empty()) return "?";
     double const middle = median(std::move(loads));
     if (!std::isfinite(middle)) return middle > 0 ? "-" : "<";
-    char digits[32];
-    std::snprintf(digits, sizeof digits, "%.0f", middle);
-    return digits;
+    return lacuna::formatted("%.0f", middle);
 }
 
 std::vector<packing_result> run_packings(std::vector<packing_request> const& requests, pool_options const& how) {

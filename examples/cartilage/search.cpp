@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <map>
 #include <numbers>
 #include <set>
@@ -12,6 +10,7 @@
 #include <vector>
 
 #include <lacuna/core/error.hpp>
+#include <lacuna/core/text.hpp>
 
 namespace cartilage {
 
@@ -203,9 +202,8 @@ double load_range::load(int place) const {
     if (place == 0) return lowest_MPa;
     if (place == n) return highest_MPa;
     // Four digits: the last bits of a power are not the same everywhere.
-    char digits[32];
-    std::snprintf(digits, sizeof digits, "%.4g", lowest_MPa * std::pow(highest_MPa / lowest_MPa, double(place) / n));
-    return std::strtod(digits, nullptr);
+    double const exact = lowest_MPa * std::pow(highest_MPa / lowest_MPa, double(place) / n);
+    return lacuna::number_of(lacuna::formatted("%.4g", exact)).value();
 }
 
 int load_range::place(double load_MPa) const {

@@ -3,7 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+
+#include <lacuna/core/text.hpp>
 
 namespace cartilage {
 
@@ -14,11 +15,7 @@ std::string zone_title(lacuna::cartilage_zone zone) {
     return name + " zone";
 }
 
-std::string number_text(char const* format, double value) {
-    char buffer[64];
-    std::snprintf(buffer, sizeof buffer, format, value);
-    return buffer;
-}
+std::string number_text(char const* format, double value) { return lacuna::formatted(format, value); }
 
 lacuna::plot_axis load_axis(double lowest, double highest) {
     lowest *= 0.93;

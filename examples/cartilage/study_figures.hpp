@@ -50,7 +50,7 @@ inline constexpr lacuna::color faint_ink{0.45, 0.55, 0.70, 0.45};
 
 /// "Surface zone" or "Whole specimen".
 std::string zone_title(lacuna::cartilage_zone zone);
-/// printf of one number.
+/// printf of one number; see lacuna::formatted().
 std::string number_text(char const* format, double value);
 /// A logarithmic axis of loads over the values, widened to round numbers.
 lacuna::plot_axis load_axis(double lowest, double highest);

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 #include <lacuna/core/error.hpp>
+#include <lacuna/core/text.hpp>
 
 namespace cartilage {
 
@@ -41,11 +41,7 @@ std::optional<double> known_load(packing_result const& packing, threshold what, 
     return std::nullopt;
 }
 
-std::string percent_text(double percent) {
-    char buffer[32];
-    std::snprintf(buffer, sizeof buffer, "%.1f", percent);
-    return buffer;
-}
+std::string percent_text(double percent) { return lacuna::formatted("%.1f", percent); }
 
 } // namespace
 
@@ -102,9 +98,7 @@ std::vector<table3_cell> table3(study_result const& study) {
 }
 
 std::string load_number(double load_MPa) {
-    char buffer[32];
-    std::snprintf(buffer, sizeof buffer, load_MPa < 9.995 ? "%.2f" : (load_MPa < 99.95 ? "%.1f" : "%.0f"), load_MPa);
-    return buffer;
+    return lacuna::formatted(load_MPa < 9.995 ? "%.2f" : (load_MPa < 99.95 ? "%.1f" : "%.0f"), load_MPa);
 }
 
 std::string load_text(double load_MPa, study_result const& study) {

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
@@ -11,6 +10,7 @@
 #include <CLI/CLI.hpp>
 
 #include <lacuna/core/error.hpp>
+#include <lacuna/core/text.hpp>
 
 #include "presets.hpp"
 
@@ -55,9 +55,8 @@ void refuse(char const* option, std::string const& word, char const* rule) {
 }
 
 double positive_number(char const* option, std::string const& word, char const* rule) {
-    char* end = nullptr;
-    double const value = std::strtod(word.c_str(), &end);
-    if (word.empty() || *end != '\0' || !(value > 0) || !std::isfinite(value)) refuse(option, word, rule);
+    double const value = lacuna::number_of(word).value_or(0);
+    if (!(value > 0) || !std::isfinite(value)) refuse(option, word, rule);
     return value;
 }
 

@@ -2,7 +2,8 @@
 #include "cases.hpp"
 
 #include <algorithm>
-#include <cstdio>
+
+#include <lacuna/core/text.hpp>
 
 #include "cryer.hpp"
 #include "darcy.hpp"
@@ -13,11 +14,7 @@ namespace poroelasticity {
 
 namespace {
 
-std::string text(char const* format, double value) {
-    char buffer[80];
-    std::snprintf(buffer, sizeof buffer, format, value);
-    return buffer;
-}
+std::string text(char const* format, double value) { return lacuna::formatted(format, value); }
 
 void add_mass(outcome& o, fluid_account const& fluid) { o.add("mass_balance_error", fluid.error(), 0); }
 

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <string>
 
+#include <lacuna/core/text.hpp>
 #include <lacuna/observe/vtk.hpp>
 #ifdef LACUNA_HAS_COMPRESSION
 #include <lacuna/observe/vtk_zlib.hpp>
@@ -122,13 +123,9 @@ void write_picture(output_directory const& out, frame_data const& f, scenario co
         auto const along = perpendicular(normal) * reach;
         picture.walls.push_back({foot + along, foot - along});
     }
-    char line[96];
-    std::snprintf(line, sizeof line, "step %lld, t = %.6g s", f.step, f.time);
-    picture.title = line;
-    if (!s.joints.pairs.empty()) {
-        std::snprintf(line, sizeof line, "%zu of %zu bonds broken", j.breaks.size(), s.joints.pairs.size());
-        picture.subtitle = line;
-    }
+    picture.title = "step " + std::to_string(f.step) + lacuna::formatted(", t = %.6g s", f.time);
+    if (!s.joints.pairs.empty())
+        picture.subtitle = std::to_string(j.breaks.size()) + " of " + std::to_string(s.joints.pairs.size()) + " bonds broken";
     lacuna::save_damage(out.file(numbered("picture", f.step, "")), picture);
 }
 

@@ -36,6 +36,9 @@ set(programs_HEADERS "^(CLI|toml\\+\\+|nlohmann|catch2|benchmark)/")
 set(programs_ROOMS "")
 
 set(FORBIDDEN_STANDARD "^(iostream|ranges|functional|regex)$")
+# What reads and writes numbers as the program's locale says: files are read and written by core/text.hpp. Programs may
+# print tables for persons.
+set(OF_LOCALES "(strto(f|d|ld)|sto(f|d|ld)|atof|setlocale|localeconv|imbue|setprecision)[ ]*\\(|stringstream|[^f]printf\\([^;]*%[-+ #0-9.*]*L?[aefgAEFG]")
 set(MOST_LINES 300)
 set(MOST_DEPTH 7)
 
@@ -100,6 +103,9 @@ foreach(header IN LISTS headers)
   if(NOT text MATCHES "\n#pragma once\n")
     list(APPEND problems "${header}: no #pragma once")
   endif()
+  if(text MATCHES "${OF_LOCALES}|fprintf\\([^;]*%[-+ #0-9.*]*L?[aefgAEFG]")
+    problem("${header} numbers" "${header}: '${CMAKE_MATCH_0}' goes by the locale, core/text.hpp reads and writes numbers")
+  endif()
   string(REGEX REPLACE "[^\n]" "" newlines "${text}")
   string(LENGTH "${newlines}" lines)
   if(lines GREATER MOST_LINES)
@@ -143,6 +149,16 @@ foreach(header IN LISTS headers)
       endforeach()
     endif()
   endforeach()
+endforeach()
+
+file(GLOB_RECURSE programs RELATIVE "${ROOT}" "${ROOT}/examples/*.cpp" "${ROOT}/examples/*.hpp")
+foreach(program IN LISTS programs)
+  file(READ "${ROOT}/${program}" text)
+  # printf alone goes to the terminal.
+  string(REGEX REPLACE "std::printf\\(" "std::puts(" text "${text}")
+  if(text MATCHES "${OF_LOCALES}")
+    problem("${program} numbers" "${program}: '${CMAKE_MATCH_0}' goes by the locale, core/text.hpp reads and writes numbers")
+  endif()
 endforeach()
 
 # Depth by rounds: a header is as deep as the deepest that it includes, plus one; what never settles is a ring.

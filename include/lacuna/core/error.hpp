@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
+#include <charconv>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -29,14 +29,18 @@ private:
     long long particle_;
 };
 
-/// Shortest decimal form that reads back to the same value.
+/// Shortest decimal form of at least six digits that reads back to the same value, whatever the locale is.
 inline std::string to_text(double value) {
     char buffer[32];
-    for (int digits = 6; digits <= 17; ++digits) {
-        std::snprintf(buffer, sizeof buffer, "%.*g", digits, value);
-        if (std::isnan(value) || std::strtod(buffer, nullptr) == value) break;
+    char* end = std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::scientific).ptr;
+    // No fewer digits than the shortest form has will do; the nearest decimal of as many nearly always does.
+    int const least = int(std::count_if(buffer, std::find(buffer, end, 'e'), [](char c) { return c >= '0' && c <= '9'; }));
+    for (int digits = std::max(6, least); digits <= 17; ++digits) {
+        end = std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::general, digits).ptr;
+        double back = 0;
+        if (!std::isfinite(value) || (std::from_chars(buffer, end, back).ptr == end && back == value)) break;
     }
-    return buffer;
+    return {buffer, end};
 }
 
 /// Throws std::invalid_argument "field = value: must be rule".

@@ -2,18 +2,22 @@
 #pragma once
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
+#include <limits>
 #include <numeric>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 #include <lacuna/core/error.hpp>
 
 /// \file
-/// What readers of text files share: bytes, words, numbers, and the word that was meant.
+/// What readers of text files share: bytes, words, numbers, and the word that was meant. Numbers are read and written
+/// by std::from_chars and std::to_chars: a program's locale is of no account.
 
 namespace lacuna {
 
@@ -34,6 +38,42 @@ inline std::string read_file(std::string const& path, std::string const& name) {
     return bytes;
 }
 
+/// The text of a file without the mark of UTF-8 at its start.
+/// \param name of the file in messages
+/// \throws std::invalid_argument for UTF-16, and for a NUL byte, by its line
+inline std::string_view plain_text(std::string_view text, std::string const& name) {
+    if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) refuse(name, "UTF-16", "a text in UTF-8");
+    if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+    auto const nul = text.find('\0');
+    if (nul == std::string_view::npos) return text;
+    auto const before = text.substr(0, nul);
+    auto const lines = std::count(before.begin(), before.end(), before.find('\n') == before.npos ? '\r' : '\n');
+    refuse(name + ":" + std::to_string(lines + 1), "a NUL byte", "text");
+}
+
+/// Takes the next line, without its end (LF, CR LF or CR), from the front of a text. False: there is none left.
+inline bool take_line(std::string_view& text, std::string_view& line) {
+    if (text.empty()) return false;
+    auto const end = std::min(text.find_first_of("\r\n"), text.size());
+    line = text.substr(0, end);
+    text.remove_prefix(std::min(text.size(), end + (text.substr(end).starts_with("\r\n") ? 2 : 1)));
+    return true;
+}
+
+/// Without the blanks at its ends.
+inline std::string_view trimmed(std::string_view text) {
+    auto const first = text.find_first_not_of(" \t\r");
+    return first == text.npos ? text.substr(0, 0) : text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
+}
+
+/// With the letters A to Z small.
+inline std::string small_letters(std::string_view text) {
+    std::string small(text);
+    for (char& c : small)
+        if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
+    return small;
+}
+
 /// The words of a line, which blanks part.
 inline std::vector<std::string> words_of(std::string_view line) {
     std::vector<std::string> words;
@@ -45,23 +85,157 @@ inline std::vector<std::string> words_of(std::string_view line) {
     return words;
 }
 
+/// A word as messages show it: in quotes, bytes that are not to be seen by their number, the middle of a long one left out.
+inline std::string quoted(std::string_view word) {
+    constexpr std::size_t most = 60;
+    std::string text = "\"";
+    for (std::size_t k = 0; k < word.size(); ++k) {
+        if (word.size() > most && k == most / 2) {
+            text += "...";
+            k = word.size() - most / 2;
+        }
+        auto const c = static_cast<unsigned char>(word[k]);
+        constexpr char const* digits = "0123456789abcdef";
+        if (c < 0x20 || c == 0x7F)
+            text += std::string("\\x") + digits[c / 16] + digits[c % 16];
+        else
+            text += word[k];
+    }
+    return text + '"';
+}
+
+namespace detail {
+
+/// The first byte or character of a word that is not of ASCII's visible ones, and its name where it is a usual one.
+inline std::string odd_character(std::string_view word) {
+    auto const odd = std::find_if(word.begin(), word.end(), [](char c) { return c < 0x20 || c > 0x7E; });
+    if (odd == word.end()) return {};
+    auto const lead = static_cast<unsigned char>(*odd);
+    char digits[16] = {};
+    std::size_t const length = lead < 0xC0 || lead > 0xF7 ? 1 : lead < 0xE0 ? 2 : lead < 0xF0 ? 3 : 4;
+    if (length == 1 || word.end() - odd < std::ptrdiff_t(length)) {
+        std::to_chars(digits, digits + sizeof digits, unsigned(lead), 16);
+        return std::string(lead == 0 ? "a NUL byte" : "the byte 0x") + (lead == 0 ? "" : digits);
+    }
+    unsigned long point = lead & (0xFFu >> (length + 1));
+    for (std::size_t k = 1; k < length; ++k)
+        point = point << 6 | (static_cast<unsigned char>(odd[std::ptrdiff_t(k)]) & 0x3F);
+    std::to_chars(digits, digits + sizeof digits, point, 16);
+    std::string code = digits;
+    for (char& c : code) c = c >= 'a' ? char(c - 'a' + 'A') : c;
+    code.insert(0, code.size() < 4 ? 4 - code.size() : 0, '0');
+    switch (point) {
+    case 0xA0: case 0x2007: case 0x202F: return "a no-break space, U+" + code;
+    case 0x2009: return "a thin space, U+2009";
+    case 0x2212: return "a minus sign that is no hyphen, U+2212";
+    case 0x2010: case 0x2011: case 0x2013: return "a dash that is no hyphen, U+" + code;
+    case 0x2019: return "an apostrophe, U+2019";
+    case 0xFEFF: return "an invisible byte order mark, U+FEFF";
+    default: return "the character U+" + code;
+    }
+}
+
+/// What a word that is no number should be, by what is wrong with it.
+inline std::string number_rule(std::string_view word) {
+    if (std::string const odd = odd_character(word); !odd.empty()) return "a number; it has " + odd;
+    std::string const small = small_letters(word);
+    auto const has = [&](std::string_view marks) { return small.find_first_of(marks) != small.npos; };
+    bool const digits = has("0123456789");
+    if (digits && small.find("0x") != small.npos) return "a decimal number, not a hexadecimal one";
+    if (digits && small.find_first_not_of("0123456789+-.d") == small.npos) return "a number with \"e\" before its exponent, not \"d\"";
+    if (digits && has("'_")) return "a number without marks between thousands";
+    if (digits && has(",")) return "a number with a decimal point, without commas";
+    return "a number";
+}
+
+/// Whether a decimal number is so small, not so large, that it is out of range.
+inline bool is_tiny(std::string_view word) {
+    auto const mark = std::min(word.find_first_of("eE"), word.size());
+    std::string_view const mantissa = word.substr(0, mark);
+    std::string_view exponent = word.substr(std::min(mark + 1, word.size()));
+    bool const negative = exponent.starts_with('-');
+    if (negative || exponent.starts_with('+')) exponent.remove_prefix(1);
+    double power = 0; // a double: exponents may have many digits
+    for (char const c : exponent) power = std::min(10 * power + (c - '0'), 1e9);
+    auto const first = mantissa.find_first_of("123456789");
+    if (first == mantissa.npos) return true;
+    auto const point = std::min(mantissa.find('.'), mantissa.size());
+    return (negative ? -power : power) + double(point) - double(first) < 0;
+}
+
+} // namespace detail
+
+/// The number that a word is, in decimal notation, "inf" and "nan" included; none where it is no number.
+inline std::optional<double> number_of(std::string_view word) {
+    if (word.size() > 1 && word[0] == '+' && word[1] != '-' && word[1] != '+') word.remove_prefix(1);
+    double x = 0;
+    auto const [end, error] = std::from_chars(word.data(), word.data() + word.size(), x);
+    if (error == std::errc::invalid_argument || end != word.data() + word.size()) return std::nullopt;
+    if (error == std::errc()) return x;
+    bool const negative = word.starts_with('-');
+    double const size = detail::is_tiny(word.substr(negative)) ? 0.0 : std::numeric_limits<double>::infinity();
+    return negative ? -size : size;
+}
+
 /// A number that takes the whole word.
 /// \param field for the message
-/// \throws std::invalid_argument for what is no number, or not finite
-inline double read_number(std::string const& field, std::string const& word) {
-    char* end = nullptr;
-    double const x = std::strtod(word.c_str(), &end);
-    if (word.empty() || *end != '\0') refuse(field, "\"" + word + "\"", "a number");
-    if (!std::isfinite(x)) refuse(field, word, "finite");
-    return x;
+/// \throws std::invalid_argument for what is no number, or not finite; where it can be told, with what is wrong with it
+inline double read_number(std::string const& field, std::string_view word) {
+    auto const x = number_of(word);
+    if (!x) refuse(field, quoted(word), detail::number_rule(word));
+    if (!std::isfinite(*x)) refuse(field, word, "finite");
+    return *x;
+}
+
+/// A whole number from `least` to `most`. \throws std::invalid_argument
+inline long long read_whole(std::string const& field, std::string_view word, long long least, long long most) {
+    double const x = read_number(field, word);
+    std::string_view const digits = word.substr(word.starts_with('+'));
+    long long n = 0;
+    auto const [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), n);
+    // "1.0" and "1e3" are whole numbers, too.
+    if (error != std::errc() || end != digits.data() + digits.size())
+        n = x == std::floor(x) && std::fabs(x) < 9e15 ? static_cast<long long>(x) : least - 1;
+    if (n < least || n > most)
+        refuse(field, word, "a whole number from " + std::to_string(least) +
+                                (most < 2147483647 ? " to " + std::to_string(most) : std::string(" on")));
+    return n;
 }
 
 /// A whole number from `least` to 2^31 - 1. \throws std::invalid_argument
-inline int read_integer(std::string const& field, std::string const& word, int least) {
-    double const x = read_number(field, word);
-    if (x != std::floor(x) || x < least || x > 2147483647.0)
-        refuse(field, word, "a whole number from " + std::to_string(least) + " on");
-    return int(x);
+inline int read_integer(std::string const& field, std::string_view word, int least) {
+    return int(read_whole(field, word, least, 2147483647));
+}
+
+/// printf of one number, as in the locale "C": text with one conversion %e, %f or %g, which may have the flag + and a
+/// precision. \throws std::invalid_argument for another format
+inline std::string formatted(std::string_view format, double value) {
+    std::string text;
+    bool done = false;
+    for (std::size_t k = 0; k < format.size(); ++k) {
+        if (format[k] != '%') {
+            text += format[k];
+            continue;
+        }
+        if (format.substr(k).starts_with("%%")) {
+            text += format[k++];
+            continue;
+        }
+        bool const plus = format.substr(k + 1).starts_with('+');
+        k += plus ? 2 : 1;
+        int digits = 6;
+        if (format.substr(k).starts_with('.'))
+            k = std::size_t(std::from_chars(format.data() + k + 1, format.data() + format.size(), digits).ptr - format.data());
+        auto const kind = format.substr(std::min(k, format.size()), 1).find_first_of("efg") == 0 ? format[k] : '?';
+        if (done || kind == '?' || digits < 0 || digits > 100) refuse("format", quoted(format), "one conversion %e, %f or %g");
+        done = true;
+        char buffer[512];
+        auto const form = kind == 'e' ? std::chars_format::scientific : kind == 'f' ? std::chars_format::fixed : std::chars_format::general;
+        auto const end = std::to_chars(buffer, buffer + sizeof buffer, value, form, digits).ptr;
+        if (plus && !std::signbit(value)) text += '+';
+        text.append(buffer, end);
+    }
+    return text;
 }
 
 /// The known word that is nearest to another, or an empty one when none is near.

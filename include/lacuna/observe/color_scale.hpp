@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <string>
 #include <vector>
 
 #include <lacuna/core/error.hpp>
+#include <lacuna/core/text.hpp>
 
 namespace lacuna {
 
@@ -145,11 +145,8 @@ inline std::vector<std::string> tick_labels(std::vector<double> const& ticks) {
     bool const plain = largest < 1e6 && step >= 0.9e-4;
     int const decimals = plain ? std::max(0, int(-std::floor(std::log10(step) + 1e-9))) : 0;
     std::vector<std::string> labels;
-    for (double tick : ticks) {
-        char buffer[64];
-        std::snprintf(buffer, sizeof buffer, plain ? "%.*f" : "%.*e", plain ? decimals : 1, tick);
-        labels.emplace_back(buffer);
-    }
+    std::string const format = plain ? "%." + std::to_string(decimals) + "f" : "%.1e";
+    for (double tick : ticks) labels.push_back(formatted(format, tick));
     return labels;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <lacuna/core/error.hpp>
+#include <lacuna/core/text.hpp>
 #include <lacuna/observe/color_scale.hpp>
 
 namespace lacuna {
@@ -53,7 +54,7 @@ inline std::vector<plot_tick> decade_ticks(plot_axis const& axis, std::vector<do
         for (double const factor : factors) {
             // Read, not multiplied: the tick is the number that its label says.
             std::string const digits = std::to_string(int(factor)) + "e" + std::to_string(power);
-            double const at = std::strtod(digits.c_str(), nullptr);
+            double const at = number_of(digits).value();
             if (at >= axis.low * (1 - 1e-9) && at <= axis.high * (1 + 1e-9)) ticks.push_back({at, to_text(at)});
         }
     }

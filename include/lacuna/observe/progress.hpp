@@ -13,6 +13,7 @@
 #endif
 
 #include <lacuna/core/error.hpp>
+#include <lacuna/core/text.hpp>
 
 namespace lacuna {
 
@@ -36,14 +37,9 @@ inline std::string rate_text(double rate) {
         double size;
         char const* letter;
     };
-    char buffer[32];
     for (magnitude const m : {magnitude{1e9, "G"}, magnitude{1e6, "M"}, magnitude{1e3, "k"}})
-        if (rate >= m.size) {
-            std::snprintf(buffer, sizeof buffer, "%.3g %s", rate / m.size, m.letter);
-            return buffer;
-        }
-    std::snprintf(buffer, sizeof buffer, "%.3g", rate);
-    return buffer;
+        if (rate >= m.size) return formatted("%.3g ", rate / m.size) + m.letter;
+    return formatted("%.3g", rate);
 }
 
 /// Whether a file is a terminal, on which a line can be rewritten.
