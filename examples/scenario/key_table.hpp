@@ -60,8 +60,8 @@ inline constexpr key keys[] = {
     {"particles.fix[].particles", kind::numbers, "", required, any, always, "their numbers"},
     {"particles.fix[].axes", kind::text, "", required, any, always, "some of the letters \"xyzr\"; r: rotation"},
     {"particles.file", kind::text, "", "", any, always,
-     "CSV in place of the lists (relative to the TOML file), columns position.x, position.y, radius, material, and if wanted "
-     "velocity.x, ..., spin"},
+     "CSV in place of the lists (relative to the TOML file), columns position.x, position.y, radius, and if wanted material, "
+     "density, velocity.x, ..., spin, or as ParaView, Yade and spreadsheets write them"},
 
     {"bonds", kind::table, "", "", any, with_particles | with_bonds, ""},
     {"bonds.pairs", kind::pairs, "", required, any, listed_bonds, "list of pairs of particles"},

@@ -21,6 +21,7 @@ void append(lacuna::particle_list<Dim> const& list, particles& to) {
     put(list.velocity, to.velocity);
     put(list.spin, to.spin);
     to.radius = list.packing.radius;
+    to.density = list.packing.density;
     to.material = list.packing.material;
 }
 

@@ -96,6 +96,7 @@ void particle_runner<Model>::build(lacuna::simulation_parameters<Model> const& g
     for (std::size_t k = 0; k < scenario_.bodies.size(); ++k)
         packing.add(lacuna::convert<typename Model::real>(to_vec<dim>(scenario_.bodies.position[k])),
                     typename Model::real(scenario_.bodies.radius[k]), scenario_.bodies.material[k]);
+    packing.density = scenario_.bodies.density;
     packing.bonds.assign(scenario_.joints.pairs.begin(), scenario_.joints.pairs.end());
     sim_.emplace(packing, p);
     set_up();

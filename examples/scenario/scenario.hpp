@@ -68,6 +68,7 @@ struct fixed {
 struct particles {
     std::vector<point> position, velocity, spin; ///< spin: in the plane the first number
     std::vector<double> radius;
+    std::vector<double> density; ///< of each particle where a file has it, else none
     std::vector<int> material; ///< number in `materials`
     std::vector<fixed> fix;
     std::size_t size() const noexcept { return position.size(); }

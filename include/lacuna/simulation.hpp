@@ -57,6 +57,13 @@ public:
     /// \throws std::invalid_argument for a bad packing or parameter
     explicit simulation(packing<real, dim> const& packing, parameters const& p = {}) : parameters_(p) {
         p.validate();
+        packing.require_bond_kinds(p.bonds.size());
+        packing.require_period([&] {
+            if constexpr (Model::domain::periodic)
+                return p.domain.period;
+            else
+                return point{};
+        }());
         std::vector<double> density;
         std::vector<typename contact_law_type::material> contact_materials;
         for (auto const& m : p.materials) {
@@ -74,7 +81,10 @@ public:
             static_assert(!has_fluid<Model>, "pores have no images: a model with fluid has an open domain");
             store_.set_period(p.domain.period);
         }
-        loads_ = load_set<real, dim>(p.gravity, p.weight_shares());
+        bool const own = !packing.density.empty();
+        if (own) density.clear();
+        for (std::size_t k = 0; own && k < store_.size(); ++k) density.push_back(packing.density[std::size_t(order[k])]);
+        loads_ = load_set<real, dim>(p.gravity, p.weight_shares(density), own);
         loads_.apply_weight(store_);
         interactions_ = interactions_type(store_, packing.bonds, p.materials, p.thickness, p.interactions, p.damping,
                                           p.bonds);

@@ -103,12 +103,12 @@ TEST_CASE("particles written to CSV come back with the same bits", "[files]") {
 TEST_CASE("bad lines of a CSV file are refused by file, line, column, value and rule", "[files]") {
     std::string const head = "radius,material,position.x,position.y\n";
     for (auto const& [text, message] : {
-             std::pair<std::string, std::string>{"", "f:1 = \"\": must be a known column"},
+             std::pair<std::string, std::string>{"", "f = (empty): must be a heading that names the columns, and rows"},
              {"radius,material,position.x\n", "f:1: position.y = (missing): must be given"},
              {"radius,materiel,position.x,position.y\n", "f:1 = \"materiel\": must be a known column (did you mean \"material\"?)"},
              {"radius,radius,position.x,position.y\n", "f:1 = \"radius\": must be a column that is not there yet"},
              {head + "1,0,0\n", "f:2 = 3 cells: must be as many as the heading has, 4"},
-             {head + "1,0,0,0\n\n1,0,0,x\n", "f:4: position.y = \"x\": must be a number"},
+             {head + "1,0,0,0\n\n1,0,1,x\n", "f:4: position.y = \"x\": must be a number"},
              {head + "1,0,0,1e999\n", "f:2: position.y = 1e999: must be finite"},
              {head + "1,0,,0\n", "f:2: position.x = \"\": must be a number"},
              {head + "0,0,0,0\n", "f:2: radius = 0: must be > 0"},
@@ -149,9 +149,9 @@ TEST_CASE("bad lines of a LAMMPS data file are refused by file, line, field, val
     for (auto const& [from, to, message] : {
              std::array<std::string, 3>{"2 1 1 1.0 1000", "2 1 1 -1.0 1000", "f:19: diameter = -1.0: must be > 0: points are no particles"},
              {"2 1 1 1.0 1000", "2 1 1 1.0 0", "f:19: density = 0: must be > 0"},
-             {"2 1 1 1.0", "2 1 0 1.0", "f:19: type = 0: must be a whole number from 1 on"},
+             {"2 1 1 1.0", "2 1 0 1.0", "f:19: atom type = 0: must be a whole number from 1 to 2"},
              {"2 1 1 1.0", "7 1 1 1.0", "f:19: id = 7: must be given once"},
-             {"1000 0 0 0 0 0 0", "1000 0 0 0 0 1 0", "f:19: image flag = 1: must be 0: give unwrapped positions"},
+             {"1000 0 0 0 0 0 0", "1000 0 0 0 0 1 0", "f:19: image flag = 1: must be 0: the box is read as open along y; reading it as periodic unwraps positions"},
              {"1000.5 1.25 0 0", "1000.5 1.25 0", "f:20: Atoms = 7 words: must be 8 or 11"},
              {"1000.5 1.25 0 0", "1000.5 1.25 zero 0", "f:20: position = \"zero\": must be a number"},
              {"3 0.1 0.2", "4 0.1 0.2", "f:24: id = 4: must be an atom of the section Atoms above"},

@@ -275,6 +275,23 @@ TEST_CASE("particles from a file", "[program]") {
     other.write("case.toml", whole);
     REQUIRE(other.run("--quiet case.toml").status == 0);
     REQUIRE(probes.rows == program::table(other / "out/probes.csv").rows);
+    // As a spreadsheet with decimal commas writes it, and with densities in place of the materials'.
+    auto const rows_of = [&](std::string const& name, std::string const& particles) {
+        folder const there(name);
+        there.write("case.toml", text);
+        there.write("particles.csv", particles);
+        REQUIRE(there.run("--quiet case.toml").status == 0);
+        return program::table(there / "out/probes.csv").rows;
+    };
+    REQUIRE(rows_of("particle_file_commas", "\xEF\xBB\xBFX;Y;R;material\r\n0,0;0;0,5;matrix\r\n1;0;0,5;matrix\r\n0,5;0,9;0,5;matrix\r\n") ==
+            probes.rows);
+    std::string const heavy = "x,y,r,material,density\n0,0,0.5,matrix,4000\n1,0,0.5,matrix,4000\n0.5,0.9,0.5,matrix,4000\n";
+    auto const of_file = rows_of("particle_file_dense", heavy);
+    REQUIRE(of_file != probes.rows);
+    auto const density = text.find("density = 1000.0");
+    REQUIRE(density != std::string::npos);
+    text.replace(density, 16, "density = 4000.0");
+    REQUIRE(rows_of("particle_file_heavy", good) == of_file);
     for (auto const& [bad, message] :
          {std::pair<std::string, std::string>{"radius,material,position.x\n", "particles.file:1: position.y = (missing): must be given"},
           {"radius,material,position.x,positon.y\n", "particles.file:1 = \"positon.y\": must be a known column (did you mean \"position.y\"?)"},

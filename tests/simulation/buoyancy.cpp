@@ -101,13 +101,15 @@ void check_bed() {
 }
 
 template <int Dim>
-void check_free_body(mass_model mass) {
+void check_free_body(mass_model mass, bool densities_of_particles) {
     double const g = 9.81, fluid = 1000;
     for (double const solid : {2500.0, 1000.0, 400.0}) {
         simulation_parameters<loose<Dim>> p;
         p.materials.resize(2);
-        p.materials[0].density = 3 * solid;
-        p.materials[1].density = solid;
+        if (!densities_of_particles) {
+            p.materials[0].density = 3 * solid;
+            p.materials[1].density = solid;
+        }
         p.mass = mass;
         p.gravity[1] = -g;
         p.fluid_density = fluid;
@@ -117,7 +119,10 @@ void check_free_body(mass_model mass) {
         aside[0] = 5;
         body.add(aside, 0.3, 0);
         body.add({}, 0.2, 1);
+        if (densities_of_particles) body.density = {3 * solid, solid};
         simulation<loose<Dim>> sim(body, p);
+        double const volume = mass == mass_model::disc ? setups::pi * 0.09 : 4 * setups::pi / 3 * 0.027;
+        REQUIRE_THAT(sim.mass(0), WithinRel(3 * solid * volume, 1e-14));
         sim.run(1000);
         // Velocities are those of half a step before.
         double const t = 0.1 - 0.5e-4;
@@ -134,9 +139,11 @@ void check_free_body(mass_model mass) {
 } // namespace
 
 TEST_CASE("a body in a fluid at rest loses the weight of what it displaces", "[buoyancy]") {
-    check_free_body<2>(mass_model::disc);
-    check_free_body<2>(mass_model::sphere);
-    check_free_body<3>(mass_model::sphere);
+    for (bool const of_particles : {false, true}) {
+        check_free_body<2>(mass_model::disc, of_particles);
+        check_free_body<2>(mass_model::sphere, of_particles);
+        check_free_body<3>(mass_model::sphere, of_particles);
+    }
 }
 
 TEMPLATE_TEST_CASE("hydrostatic balance: a wet bed stands on its submerged weight and nothing flows", "[buoyancy]",

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <string>
 
+#include <lacuna/particles/lammps_data.hpp>
 #include <lacuna/simulation/checkpoint.hpp>
 
 #include "catch.hpp"
@@ -233,4 +234,21 @@ TEST_CASE("periods that cannot be are refused by name", "[periodic][refusal]") {
     CHECK_THROWS_WITH(make(), contains_text("domain.period = 2: must be 0 or at least 2.01 times"));
     p.domain.period = {4, 0};
     CHECK_NOTHROW(make());
+}
+
+TEST_CASE("a ring through the sides of a LAMMPS box", "[periodic]") {
+    std::string const text = "ring\n\n3 atoms\n3 bonds\n-1 2 xlo xhi\n0 9 ylo yhi\n\nAtoms # sphere\n\n1 1 1 2000 -0.5 1 0 0 0 0\n"
+                             "2 1 1 1000 0.5 1 0 0 0 0\n3 1 1 500 -1.5 1 0 1 0 0\n\nBonds\n\n1 1 1 2\n2 1 2 3\n3 1 3 1\n";
+    auto const list = lacuna::parse_lammps_data<2>(text, "f", {true, false});
+    auto p = undamped<ring>(100, 70, 0, 1);
+    p.domain.period = list.packing.period;
+    lacuna::simulation<ring> sim(list.packing, p);
+    // Each bond is 1 m long: nothing pulls; the file's densities make the masses.
+    sim.run(3);
+    for (std::size_t k = 0; k < 3; ++k) {
+        REQUIRE(sim.position(k)[0] == -0.5 + double(k));
+        REQUIRE_THAT(sim.mass(k), WithinRel(list.density[k] * pi / 4, 1e-15));
+    }
+    p.domain.period[0] = 4;
+    REQUIRE_THROWS_WITH(lacuna::simulation<ring>(list.packing, p), contains_text("domain.period = 4: must be that of the packing's box along this axis, 3"));
 }

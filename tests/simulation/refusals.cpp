@@ -126,6 +126,20 @@ TEST_CASE("each bad packing is refused by the particle's or bond's name", "[refu
     REQUIRE_THAT(attempt([](pack& p) { p.bonds[1] = {-1, 2}; }), contains_text("bond 1.particle = -1"));
     REQUIRE_THAT(attempt([](pack& p) { p.bonds[1] = {2, 2}; }), contains_text("bond 1.particles = 2"));
     REQUIRE_THAT(attempt([](pack& p) { p.bonds.push_back({1, 0}); }), contains_text("a repeated pair"));
+    REQUIRE_THAT(attempt([](pack& p) { p.density = {1, 1}; }), contains_text("packing.density.size() = 2"));
+    REQUIRE_THAT(attempt([](pack& p) { p.density = {1, 0, 1}; }), contains_text("particle 1.density = 0: must be > 0"));
+    REQUIRE_THAT(attempt([](pack& p) { p.density = {1, 1, nan_value}; }), contains_text("particle 2.density = nan"));
+    REQUIRE_THAT(attempt([](pack& p) { p.bond_type = {0}; }), contains_text("packing.bond_type.size() = 1"));
+    // Bonds of two types would be made alike.
+    REQUIRE_THAT(attempt([](pack& p) { p.bond_type = {0, 2}; }), contains_text("parameters.bonds = none") && contains_text("types 1 and 3"));
+    REQUIRE(attempt([](pack& p) { p.bond_type = {2, 2}; }) == "accepted");
+    auto typed = chain<2>(3);
+    typed.bond_type = {0, 1};
+    settings by_type;
+    by_type.bonds = lacuna::by_bond_type(typed, std::vector<lacuna::bond_values>{{}, {.normal_stiffness = 7.0}});
+    REQUIRE(refusal([&] { lacuna::simulation<plane> run(typed, by_type); }) == "accepted");
+    // A packing of a periodic box in the open.
+    REQUIRE_THAT(attempt([](pack& p) { p.period = {3, 0}; }), contains_text("domain.period = 0: must be that of the packing's box") && contains_text("3"));
     REQUIRE_THAT(attempt([](pack& p) { p.position[1] = p.position[0]; }), contains_text("bond 0.distance"));
     REQUIRE(attempt([](pack&) {}) == "accepted");
 }

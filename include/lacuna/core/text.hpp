@@ -86,7 +86,7 @@ inline std::vector<std::string> words_of(std::string_view line) {
 }
 
 /// A word as messages show it: in quotes, bytes that are not to be seen by their number, the middle of a long one left out.
-inline std::string quoted(std::string_view word) {
+inline std::string in_quotes(std::string_view word) {
     constexpr std::size_t most = 60;
     std::string text = "\"";
     for (std::size_t k = 0; k < word.size(); ++k) {
@@ -182,7 +182,7 @@ inline std::optional<double> number_of(std::string_view word) {
 /// \throws std::invalid_argument for what is no number, or not finite; where it can be told, with what is wrong with it
 inline double read_number(std::string const& field, std::string_view word) {
     auto const x = number_of(word);
-    if (!x) refuse(field, quoted(word), detail::number_rule(word));
+    if (!x) refuse(field, in_quotes(word), detail::number_rule(word));
     if (!std::isfinite(*x)) refuse(field, word, "finite");
     return *x;
 }
@@ -227,7 +227,7 @@ inline std::string formatted(std::string_view format, double value) {
         if (format.substr(k).starts_with('.'))
             k = std::size_t(std::from_chars(format.data() + k + 1, format.data() + format.size(), digits).ptr - format.data());
         auto const kind = format.substr(std::min(k, format.size()), 1).find_first_of("efg") == 0 ? format[k] : '?';
-        if (done || kind == '?' || digits < 0 || digits > 100) refuse("format", quoted(format), "one conversion %e, %f or %g");
+        if (done || kind == '?' || digits < 0 || digits > 100) refuse("format", in_quotes(format), "one conversion %e, %f or %g");
         done = true;
         char buffer[512];
         auto const form = kind == 'e' ? std::chars_format::scientific : kind == 'f' ? std::chars_format::fixed : std::chars_format::general;

@@ -24,9 +24,10 @@ public:
 
     load_set() = default;
     /// \param gravity m/s^2
-    /// \param weight_share by material: what is left of a particle's weight, 1 without a fluid that it displaces
-    load_set(point const& gravity, std::vector<double> weight_share)
-        : gravity_(gravity), weight_share_(std::move(weight_share)) {}
+    /// \param weight_share what is left of a particle's weight, 1 without a fluid that it displaces: by material, or
+    ///        where there are particles with densities of their own by internal index
+    load_set(point const& gravity, std::vector<double> weight_share, bool by_particle = false)
+        : gravity_(gravity), weight_share_(std::move(weight_share)), by_particle_(by_particle) {}
 
     /// Replaces the load on one particle.
     /// \param k internal index
@@ -92,10 +93,10 @@ private:
         one_load const l = found == load_.end() ? one_load{} : found->second;
         double const passed = time - l.start;
         double const share = passed >= l.ramp_time ? 1.0 : passed > 0 ? passed / l.ramp_time : 0.0;
+        double const weight = double(store.mass(k)) * weight_share_[by_particle_ ? k : std::size_t(store.material(k))];
         vec<Real, Dim> total{};
         for (int axis = 0; axis < Dim; ++axis)
-            total[axis] = Real(share * l.force[axis] +
-                               double(store.mass(k)) * weight_share_[std::size_t(store.material(k))] * gravity_[axis]);
+            total[axis] = Real(share * l.force[axis] + weight * gravity_[axis]);
         store.set_applied_force(k, total);
         if constexpr (Dim == 2)
             store.set_applied_torque(k, Real(share * l.torque[0]));
@@ -105,6 +106,7 @@ private:
 
     point gravity_{};
     std::vector<double> weight_share_;
+    bool by_particle_ = false;
     std::map<std::size_t, one_load> load_; ///< of the particles that ever had one, by internal index
     std::vector<std::size_t> rising_;
 };

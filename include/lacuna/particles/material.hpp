@@ -10,7 +10,7 @@ namespace lacuna {
 /// A material of a model: density, and what it contributes to the model's contact and bond law.
 template <class ContactLaw, class BondLaw>
 struct material_of {
-    double density = 1000; ///< kg/m^3
+    double density = 1000; ///< kg/m^3; of particles that have none of their own, see packing::density
     typename ContactLaw::material contact{};
     typename BondLaw::material bond{};
 

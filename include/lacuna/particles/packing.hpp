@@ -5,21 +5,29 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
+#include <lacuna/core/error.hpp>
 #include <lacuna/core/vec.hpp>
 #include <lacuna/particles/packing_grid.hpp>
 
 namespace lacuna {
 
 /// Particles before they become a simulation: where they are, how large, of which material, which pairs are
-/// bonded. All lengths in m. `position`, `radius` and `material` have one entry per particle.
+/// bonded. All lengths in m. `position`, `radius` and `material` have one entry per particle, `density` one or none at
+/// all, `bond_type` one per bond or none at all.
 template <class Real, int Dim>
 struct packing {
     std::vector<vec<Real, Dim>> position;
     std::vector<Real> radius;
     std::vector<int> material;
     std::vector<std::array<std::int32_t, 2>> bonds; ///< pairs of particle numbers, each pair once
+    std::vector<double> density{};                  ///< of each particle, kg/m^3; none: those of their materials
+    /// Kinds of bonds, from 0 on, as a file has them; see by_bond_type(). A simulation of bonds of several kinds has to be
+    /// given the values of its bonds.
+    std::vector<int> bond_type{};
+    vec<double, Dim> period{}; ///< of the periodic box that the packing was made in, m; 0 along open axes
 
     std::size_t size() const noexcept { return position.size(); }
 
@@ -30,7 +38,49 @@ struct packing {
         material.push_back(m);
         return std::int32_t(position.size() - 1);
     }
+    /// \throws std::invalid_argument unless there is one radius and one material per particle, one density or none at all
+    void require_one_each() const {
+        auto const check = [&](char const* name, std::size_t count) {
+            if (count != size()) refuse(name, double(count), "one per particle");
+        };
+        check("packing.radius.size()", radius.size());
+        check("packing.material.size()", material.size());
+        if (!density.empty()) check("packing.density.size()", density.size());
+    }
+    /// \param values how many bonds are given values of their own
+    /// \throws std::invalid_argument for bonds of several kinds that would be made alike
+    void require_bond_kinds(std::size_t values) const {
+        if (bond_type.empty()) return;
+        if (bond_type.size() != bonds.size())
+            refuse("packing.bond_type.size()", double(bond_type.size()), "one per bond, or none");
+        for (int const type : bond_type)
+            if (values == 0 && type != bond_type[0])
+                refuse("parameters.bonds", "none", "one entry per bond, by_bond_type(): the packing has bonds of types " +
+                                                       std::to_string(bond_type[0] + 1) + " and " + std::to_string(type + 1) +
+                                                       "; or packing.bond_type cleared");
+    }
+    /// \param domain period of the space that the packing is put into, 0 along open axes, m
+    /// \throws std::invalid_argument where the packing was made for another
+    void require_period(vec<double, Dim> const& domain) const {
+        for (int axis = 0; axis < Dim; ++axis)
+            if (period[axis] > 0 && period[axis] != domain[axis])
+                refuse("domain.period", domain[axis], "that of the packing's box along this axis, " + to_text(period[axis]));
+    }
 };
+
+/// The values of bonds by their kinds: for simulation_parameters::bonds.
+/// \param of_type values of the bonds of each kind, as packing.bond_type counts them
+/// \throws std::invalid_argument for a kind without values
+template <class Values, class Real, int Dim>
+std::vector<Values> by_bond_type(packing<Real, Dim> const& packing, std::vector<Values> const& of_type) {
+    std::vector<Values> values;
+    for (std::size_t b = 0; b < packing.bonds.size(); ++b) {
+        int const type = packing.bond_type.empty() ? 0 : packing.bond_type.at(b);
+        require_in("packing.bond_type", type, 0, double(of_type.size()) - 1);
+        values.push_back(of_type[std::size_t(type)]);
+    }
+    return values;
+}
 
 /// The same packing in another scalar type.
 template <class Real, class From, int Dim>
@@ -42,6 +92,9 @@ packing<Real, Dim> convert_packing(packing<From, Dim> const& from) {
         to.add(x, Real(from.radius[i]), from.material[i]);
     }
     to.bonds = from.bonds;
+    to.density = from.density;
+    to.bond_type = from.bond_type;
+    to.period = from.period;
     return to;
 }
 

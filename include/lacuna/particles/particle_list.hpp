@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
+#include <numeric>
+#include <string>
 #include <vector>
 
+#include <lacuna/core/error.hpp>
 #include <lacuna/core/vec.hpp>
 #include <lacuna/particles/packing.hpp>
 
@@ -14,7 +19,8 @@ struct particle_list {
     lacuna::packing<double, Dim> packing;
     std::vector<vec<double, Dim>> velocity;            ///< of each particle, m/s
     std::vector<vec<double, rotation_dim<Dim>>> spin;  ///< of each particle, rad/s
-    std::vector<double> density;                       ///< of each particle where the file has it, else none, kg/m^3
+    /// Of each particle where the file has it, else none, kg/m^3: what was read. A simulation goes by packing.density.
+    std::vector<double> density;
 
     std::size_t size() const noexcept { return packing.size(); }
     /// Appends a particle that rests.
@@ -33,5 +39,36 @@ void set_motion(Simulation& sim, particle_list<Dim> const& list) {
         if (squared_norm(list.spin[k]) > 0) sim.set_spin(k, list.spin[k]);
     }
 }
+
+namespace detail {
+
+/// \param line of each particle in its file
+/// \throws std::invalid_argument for two particles at one place: a file that says something twice
+template <int Dim>
+void refuse_particles_given_twice(particle_list<Dim> const& list, std::vector<std::size_t> const& line,
+                                  std::string const& name) {
+    auto const& x = list.packing.position;
+    std::vector<std::size_t> order(list.size());
+    std::iota(order.begin(), order.end(), std::size_t(0));
+    auto const less = [&](std::size_t a, std::size_t b) {
+        for (int axis = 0; axis < Dim; ++axis)
+            if (x[a][axis] != x[b][axis]) return x[a][axis] < x[b][axis];
+        return line[a] < line[b];
+    };
+    std::sort(order.begin(), order.end(), less);
+    std::size_t first = 0, second = 0; // the lowest line that repeats another
+    for (std::size_t k = 1; k < order.size(); ++k) {
+        bool same = true;
+        for (int axis = 0; axis < Dim; ++axis) same = same && x[order[k - 1]][axis] == x[order[k]][axis];
+        if (!same || (second > 0 && line[order[k]] > second)) continue;
+        first = line[order[k - 1]];
+        second = line[order[k]];
+    }
+    if (second > 0)
+        refuse(name + ":" + std::to_string(second) + ": position", "that of line " + std::to_string(first),
+               "another: two particles cannot be at one place");
+}
+
+} // namespace detail
 
 } // namespace lacuna

@@ -49,16 +49,14 @@ public:
 
     /// \param packing the particles, in order of their ids
     /// \param order order[internal] = id: a permutation; see spatial_order
-    /// \param density of each material, kg/m^3
+    /// \param density of each material, kg/m^3, for packings without densities of their own
     /// \param thickness m, for mass_model::disc
     /// \throws std::invalid_argument naming the particle and the value
     particle_store(packing<Real, Dim> const& packing, std::span<std::int32_t const> order,
                    std::span<double const> density, mass_model masses, double thickness)
         : id_(order.begin(), order.end()), internal_(order.size()) {
         std::size_t const n = packing.position.size();
-        if (packing.radius.size() != n) refuse("packing.radius.size()", double(packing.radius.size()), "one per particle");
-        if (packing.material.size() != n)
-            refuse("packing.material.size()", double(packing.material.size()), "one per particle");
+        packing.require_one_each();
         body_.resize(n + ghosts);
         if constexpr (Dim == 3) {
             surface_speed_.resize(n + ghosts);
@@ -87,7 +85,8 @@ public:
             require_positive(name + ".radius", r);
             int const material = packing.material[id];
             require_in(name + ".material", material, 0, double(density.size()) - 1);
-            double const rho = density[std::size_t(material)];
+            double const rho = packing.density.empty() ? density[std::size_t(material)] : packing.density[id];
+            require_positive(name + ".density", rho);
             bool const disc = masses == mass_model::disc && Dim == 2;
             double const mass = disc ? rho * std::numbers::pi * r * r * thickness : rho * 4 / 3 * std::numbers::pi * r * r * r;
             inertia_share_ = disc ? 0.5 : 0.4;

@@ -50,10 +50,10 @@ struct simulation_parameters {
     /// is summed up, which saves a third of the memory traffic of large models. The results are the same.
     bool keep_pair_forces = true;
 
-    /// By material, what a fluid of fluid_density leaves of a particle's weight.
-    std::vector<double> weight_shares() const {
+    /// What a fluid of fluid_density leaves of a particle's weight, for each density given.
+    std::vector<double> weight_shares(std::vector<double> const& densities) const {
         std::vector<double> shares;
-        for (auto const& m : materials) shares.push_back(1 - fluid_density / m.density);
+        for (double const density : densities) shares.push_back(1 - fluid_density / density);
         return shares;
     }
     /// Pressure at x of the fluid at rest below its surface, rho_f g . (x - surface), Pa: to be added to a pore's pressure.
