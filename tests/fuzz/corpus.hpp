@@ -12,9 +12,13 @@
 
 namespace fuzz {
 
-/// Writes a seed into the corpus: the last argument of the command line.
+/// Writes a seed into the corpus that grows: the first folder of the command line. Others are read only.
 inline void write_seed(int argc, char** argv, std::string const& name, std::string const& bytes) {
-    if (argc > 1 && argv[argc - 1][0] != '-') std::ofstream(std::string(argv[argc - 1]) + "/" + name, std::ios::binary) << bytes;
+    for (int k = 1; k < argc; ++k) {
+        if (argv[k][0] == '-') continue;
+        std::ofstream(std::string(argv[k]) + "/" + name, std::ios::binary) << bytes;
+        return;
+    }
 }
 
 /// Stops the run of the fuzzer when a promise is broken.
