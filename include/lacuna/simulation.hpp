@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <stdexcept>
@@ -23,12 +24,12 @@
 #include <lacuna/observe/observer.hpp>
 #include <lacuna/particles/spatial_order.hpp>
 #include <lacuna/simulation/fluid_coupling.hpp>
-#include <lacuna/simulation/guards.hpp>
 #include <lacuna/simulation/ledger_keeper.hpp>
 #include <lacuna/simulation/limits.hpp>
 #include <lacuna/simulation/parameters.hpp>
 #include <lacuna/simulation/particle_access.hpp>
 #include <lacuna/simulation/particle_forces.hpp>
+#include <lacuna/simulation/run_guards.hpp>
 
 namespace lacuna {
 
@@ -54,7 +55,8 @@ public:
                                                    typename Model::template search<real, dim>, typename Model::domain>;
     using event_type = break_event<dim>;
 
-    /// \throws std::invalid_argument for a bad packing or parameter
+    /// \throws std::invalid_argument for a bad packing or parameter; for particles that are at the same place, overlap by
+    ///         more than guards.overlap_limit, or are too far from the origin for the precision
     explicit simulation(packing<real, dim> const& packing, parameters const& p = {}) : parameters_(p) {
         p.validate();
         packing.require_bond_kinds(p.bonds.size());
@@ -90,7 +92,8 @@ public:
                                           p.bonds);
         walls_ = wall_contacts<contact_law_type, damping_type, real, dim>(p.walls, contact_materials, p.thickness);
         wall_drive_ = wall_drive<dim>(p.walls.size(), p.thickness);
-        smallest_radius_ = store_.size() ? *std::min_element(store_.radii().begin(), store_.radii().end()) : real(1);
+        guards_ = run_guards<Model>(store_, interactions_, p.guards, p.damping, p.allow_unstable_step);
+        interactions_.set_deepest_overlap(p.guards.largest_overlap());
         update_walls();
         reports_.resize(std::size_t(interactions_.chunks()));
         extra_.resize(store_.size() * pair_forces<real, dim>::records_per_pair);
@@ -160,13 +163,20 @@ public:
     /// \param make callable (points_view positions, Real const* radii) -> pore_network, in the simulation's own
     ///        numbering of particles; see triangulate_body() and make_pore_network(). With remeshing a copy is kept,
     ///        and called again whenever the mesh is made anew: what it refers to has to stay.
-    /// \throws std::invalid_argument for flow parameters out of range
+    /// \throws std::invalid_argument for flow parameters out of range, and for two particles at the same place
     template <class Make>
     void fill_pores(Make const& make)
         requires(has_fluid<Model>)
     {
+        auto const apart = [&] { require_apart(store_.positions(), [&](std::size_t k) { return store_.id(k); }); };
         interactions_.keep_normal_forces();
-        fluid_.fill(store_, interactions_, parameters_.flow, parameters_.remeshing, dim == 2 ? parameters_.thickness : 1.0, make);
+        try {
+            fluid_.fill(store_, interactions_, parameters_.flow, parameters_.remeshing, dim == 2 ? parameters_.thickness : 1.0, make);
+        } catch (std::exception const&) {
+            apart(); // names them, where they are what no mesh can be made of
+            throw;
+        }
+        if (!fluid_.get()->network().bare()) apart();
         time_step_.reset();
     }
 
@@ -263,10 +273,11 @@ public:
         walls_.archive(ar, store_);
         ar(wall_drive_);
         fluid_.archive(ar, store_);
-        ar(events_, kicked_, motions_, plates_, ledger_, growth_, time_step_, moved_, step_, planned_steps_, planned_end_);
+        ar(events_, kicked_, motions_, plates_, ledger_, guards_, time_step_, moved_, step_, planned_steps_, planned_end_);
         ar(clock_.time, clock_.step, clock_.last);
         require_state(motions_.fits(store_.size()), "a motion prescribed to no particle");
         require_state(plates_.fit(store_.size()), "a rigid plate of no particle");
+        require_state(guards_.fit(store_.size()), "guards that follow no particle");
         for (auto const& k : kicked_) require_state(k.particle < store_.size(), "a velocity given to no particle");
         require_state(!time_step_ || (*time_step_ > 0 && std::isfinite(*time_step_)), "its time step");
         for (auto const number : {step_, planned_steps_, planned_end_})
@@ -306,6 +317,7 @@ private:
                                     carries_moment<contact_law_type>;
         bool const on_time = parameters_.velocities_on_time && (step_ == 0 || !kicked_.empty());
         bool remeshed = false;
+        std::int32_t given = -1;
         interactions_.set_mode(store_, !parameters_.keep_pair_forces, parameters_.threads);
         auto const& spans = interactions_.spans();
         // A particle's pairs belong to it and to lower-numbered ones: once the pairs of a chunk are evaluated, nothing
@@ -343,6 +355,8 @@ private:
                 if constexpr (WithEnergy) ledger_.book_work(work_of_kick(k, before));
             }
             if (on_time) set_back((before + dt) / 4);
+            given = fastest_given();
+            guards_.follow(store_, given);
             kicked_.clear();
             for_each_chunk(chunks, parameters_.threads, [&](int c) {
                 interactions_.with_forces_on(
@@ -350,22 +364,20 @@ private:
             });
         }
         collect_events();
-        moved_ = checked_motion<real, dim>(store_, reports_, dt, smallest_radius_, now());
-        if (auto const k = interactions_.deep_overlap(); k >= 0)
-            throw_unstable(store_, now(), k, "it overlaps another particle by more than a radius",
-                           "the load is too high for the contact stiffness, or the time step too long");
+        moved_ = guards_.check_motion(store_, interactions_, reports_, dt, given, now());
         if constexpr (WithEnergy) {
             auto pairs = interactions_.energy();
             pairs += wall_energy_;
             ledger_.template keep<flow_type>(pairs, interactions_.fracture_energy(), reports_, double(before), double(dt),
                                              fluid_.get(), wall_power_);
+            guards_.check_energy(store_, ledger_.ledger(), double(dt), now());
         } else {
             ledger_.close();
         }
-        check_energy(store_, growth_, WithEnergy ? &ledger_.ledger() : nullptr, moved_, smallest_radius_, now());
         if constexpr (has_fluid<Model>)
-            if (parameters_.remeshing.rule == remesh_rule::never && (changed || step_ % 64 == 63))
-                check_pores(store_, fluid_.get()->network(), now());
+            if (parameters_.guards.pores && parameters_.remeshing.rule == remesh_rule::never &&
+                (changed || step_ % 64 == 63))
+                check_pores(store_, fluid_.get()->network(), now(), guards_.crushed(store_, interactions_));
         ++step_;
         if (remeshed || step_ % 64 == 0) mind_flow_limit();
     }
@@ -377,6 +389,15 @@ private:
         vec<real, rotation_dim<dim>> spin;
         bool spun; ///< the spin was given, not the velocity
     };
+    /// Of the particles that have been given a velocity since the last step the fastest, -1: none.
+    std::int32_t fastest_given() const noexcept {
+        std::int32_t found = -1;
+        real speed = -1;
+        for (kick const& k : kicked_)
+            if (real const own = squared_norm(store_.velocity(k.particle)); !k.spun && own > speed)
+                speed = own, found = std::int32_t(k.particle);
+        return found;
+    }
     void exchange(kick& k) {
         auto const now = kick{k.particle, store_.velocity(k.particle), store_.spin(k.particle), k.spun};
         store_.set_velocity(k.particle, k.velocity);
@@ -447,9 +468,10 @@ private:
         interactions_.add_moments(store_, extra_);
         if (!walls_.empty()) {
             auto const beyond = walls_.evaluate(store_, dt, parameters_.damping, extra_, wall_energy_);
-            if (beyond >= 0)
+            if (beyond >= 0 && parameters_.guards.walls)
                 throw_unstable(store_, now(), beyond, "its centre is beyond a wall",
-                               "the load or speed is too high for the stiffness of the wall");
+                               step_ == 0 ? "it is there from the start: a wall's point or normal, or the particle's position"
+                                          : "the load or speed is too high for the stiffness of the wall");
         }
         if (!plates_.empty())
             plates_.share(store_, [&](std::size_t k) { return total_force(store_, interactions_, extra_, k).force; },
@@ -461,9 +483,9 @@ private:
         if (walls_.empty()) return;
         wall_drive_.advance(walls_, time(), dt);
         wall_power_ = walls_.advance(dt);
-        if (double const way = walls_.fastest() * dt; way > 0.1 * double(smallest_radius_))
+        if (double const share = walls_.fastest() * dt / double(guards_.smallest_radius()), limit = parameters_.guards.largest_motion(); share > limit)
             throw_unstable(store_, now(), -1,
-                           "a wall moved " + to_text(way / double(smallest_radius_)) + " of the smallest radius in one step (limit 0.1)",
+                           "a wall moved " + to_text(share) + " of the smallest radius in one step (limit " + to_text(limit) + ")",
                            "its velocity is too high");
     }
 
@@ -558,7 +580,7 @@ private:
     std::vector<event_type> events_;
     std::vector<kick> kicked_;
     ledger_keeper<real> ledger_;
-    growth_watch<real> growth_;
+    run_guards<Model> guards_;
     prescribed_motion<dim> motions_;
     rigid_plates<real, dim> plates_;
     mutable std::optional<double> time_step_;
@@ -569,7 +591,7 @@ private:
         double last;
     };
     step_clock clock_{parameters_.start_time, 0, 0};
-    real moved_ = 0, smallest_radius_ = 1;
+    real moved_ = 0;
     long long step_ = 0, planned_steps_ = 0, planned_end_ = 0;
 };
 

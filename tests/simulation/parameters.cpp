@@ -204,6 +204,8 @@ TEST_CASE("each number of a simulation", "[refusal]") {
                                 {"walls[0].material.friction", rule::not_negative},
                                 {"time_step", rule::not_negative},
                                 {"safety", rule::positive},
+                                {"guards.overlap_limit", rule::positive},
+                                {"guards.motion_limit", rule::positive},
                                 {"start_time", rule::finite}};
     std::vector<double*> numbers;
     collect(p, numbers);

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cmath>
+#include <exception>
 #include <limits>
 #include <numbers>
+#include <string>
 #include <vector>
 
 #include <lacuna/simulation.hpp>
@@ -86,6 +88,17 @@ lacuna::vec<double, Model::dim> momentum(lacuna::simulation<Model> const& s) {
     lacuna::vec<double, Model::dim> p{};
     for (std::size_t k = 0; k < s.size(); ++k) p += s.velocity(k) * s.mass(k);
     return p;
+}
+
+/// What an exception of `play()` says; "" when none is thrown.
+template <class Play>
+std::string thrown_by(Play const& play) {
+    try {
+        play();
+    } catch (std::exception const& e) {
+        return e.what();
+    }
+    return "";
 }
 
 /// Orbital and spin angular momentum about the origin.

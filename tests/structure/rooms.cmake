@@ -60,6 +60,8 @@ set(EXCEPTIONS
   "simulation/parameters.hpp depth"
   "simulation/limits.hpp depth"
   "simulation/fluid_coupling.hpp depth"
+  # All guards, one of which looks at the pores.
+  "simulation/run_guards.hpp depth"
   # Stands on top of simulation.hpp.
   "simulation/checkpoint.hpp depth"
   # A specimen is random packing, which is relaxing, which is sorting into a grid.

@@ -1,9 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+#include <utility>
 #include <vector>
 
+#include <lacuna/core/error.hpp>
 #include <lacuna/core/vec.hpp>
 
 namespace lacuna {
@@ -26,10 +32,39 @@ struct points_view {
     }
 };
 
+/// A place or a way in a message: "(0.5, 2)".
+template <class T, int N>
+std::string to_text(vec<T, N> const& x) {
+    std::string text = "(";
+    for (int axis = 0; axis < N; ++axis) text += (axis ? ", " : "") + to_text(double(x[axis]));
+    return text + ")";
+}
+
 /// View of a vector of points; valid as long as the vector is not resized.
 template <class Real, int Dim>
 points_view<Real, Dim> view_points(std::vector<vec<Real, Dim>> const& points) noexcept {
     return {points.empty() ? nullptr : points.front().data(), points.size(), std::size_t(Dim)};
+}
+
+/// \param id callable (number of a point) -> the number by which it is named
+/// \throws std::invalid_argument for two particles at the same place
+template <class Real, int Dim, class Id>
+void require_apart(points_view<Real, Dim> const& points, Id const& id) {
+    std::vector<std::size_t> order(points.size());
+    std::iota(order.begin(), order.end(), std::size_t(0));
+    auto const before = [&](std::size_t a, std::size_t b) {
+        for (int axis = 0; axis < Dim; ++axis)
+            if (points(a, axis) != points(b, axis)) return points(a, axis) < points(b, axis);
+        return false;
+    };
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+        return before(a, b) || (!before(b, a) && id(a) < id(b));
+    });
+    for (std::size_t n = 1; n < order.size(); ++n)
+        if (!before(order[n - 1], order[n]))
+            throw std::invalid_argument("particles " + std::to_string(id(order[n - 1])) + " and " +
+                                        std::to_string(id(order[n])) + " are at the same place " +
+                                        to_text(points[order[n]]) + " m: must be apart, else there are no pores between them");
 }
 
 } // namespace lacuna

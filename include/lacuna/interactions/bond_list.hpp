@@ -56,7 +56,10 @@ std::vector<Entry> make_bonds(particle_store<Real, Dim> const& store,
         if (i > j) std::swap(i, j);
         Real const touching = store.radius(std::size_t(i)) + store.radius(std::size_t(j));
         Real const distance = norm(store.nearest(store.position(std::size_t(j)) - store.position(std::size_t(i))));
-        if (!(distance > 0)) refuse(name + ".distance", double(distance), "> 0");
+        if (!(distance > 0))
+            refuse(name + ".distance", double(distance),
+                   "> 0: particles " + std::to_string(pairs[b][0]) + " and " + std::to_string(pairs[b][1]) +
+                       " are at the same place " + to_text(store.position(std::size_t(i))) + " m");
         gap = std::max(gap, distance - touching);
         bonds.push_back({i, j, row(i, j), std::int32_t(b), Law::template initial<Real, Dim>(distance, touching)});
     }

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include <lacuna/core/parallel.hpp>
@@ -84,6 +86,14 @@ void merge_contacts(std::vector<neighbor_pair> const& candidates, Bonds const& b
     merge();
 }
 
+/// Overlap of two particles, by internal index, over the smaller radius, 1; negative for a gap.
+template <class Real, int Dim>
+Real overlap_of(particle_store<Real, Dim> const& store, std::int32_t first, std::int32_t second) noexcept {
+    auto const i = std::size_t(first), j = std::size_t(second);
+    Real const distance = norm(store.nearest(store.position(j) - store.position(i)));
+    return (store.radius(i) + store.radius(j) - distance) / std::min(store.radius(i), store.radius(j));
+}
+
 /// History of a pair that becomes a candidate: it touches at r_i + r_j, or, within `tolerance` times the smaller
 /// radius of that, at the distance it has.
 template <class Law, class Real, int Dim>
@@ -98,17 +108,15 @@ auto first_history(particle_store<Real, Dim> const& store, neighbor_pair const& 
     return Law::template initial<Real, Dim>(start, touching);
 }
 
-/// Of the contacts of one pack, a particle that overlaps its partner by more than a radius, by internal index; else -1.
+/// Of the contacts of one pack, two particles that overlap by more than `limit` times the smaller radius, by internal
+/// index; else {-1, -1}.
 template <class Real, int Dim, class Table>
-[[gnu::noinline]] std::int32_t find_deep_overlap(particle_store<Real, Dim> const& store, Table const& contacts,
-                                                 std::size_t pack) {
-    std::int32_t found = -1;
-    for (std::size_t s = pack * Table::width; s < (pack + 1) * Table::width; ++s) {
-        if (contacts.is_filler(s, store.size())) continue;
-        auto const i = std::size_t(contacts.i(s)), j = std::size_t(contacts.j(s));
-        Real const distance = norm(store.nearest(store.position(j) - store.position(i)));
-        if (distance < std::max(store.radius(i), store.radius(j))) found = contacts.i(s);
-    }
+[[gnu::noinline]] std::array<std::int32_t, 2> find_deep_overlap(particle_store<Real, Dim> const& store,
+                                                                Table const& contacts, std::size_t pack, Real limit) {
+    std::array<std::int32_t, 2> found{-1, -1};
+    for (std::size_t s = pack * Table::width; s < (pack + 1) * Table::width; ++s)
+        if (!contacts.is_filler(s, store.size()) && overlap_of(store, contacts.i(s), contacts.j(s)) > limit)
+            found = {contacts.i(s), contacts.j(s)};
     return found;
 }
 

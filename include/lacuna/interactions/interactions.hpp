@@ -2,6 +2,8 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -133,14 +135,16 @@ public:
             evaluate_chunk<pair_kind::bond, WithEnergy, BondLaw, Damping, Domain>(
                 bonds_, chunk, bond_parameters_, damping_, store, time_step, forces_.template begin<0>(bonds_, chunk),
                 forces_.template places<0>(bonds_, chunk), forces_.template normals_of<0>(), moments_.data(), ahead, energy[0],
-                [&](std::size_t pack) { break_bonds(store, chunk, pack, time_step); });
+                [&](std::size_t pack) { break_bonds(store, chunk, pack, time_step); }, deepest_);
         if constexpr (!is_absent<ContactLaw>)
             evaluate_chunk<pair_kind::contact, WithEnergy, ContactLaw, Damping, Domain>(
                 contacts_, chunk, contact_parameters_, damping_, store, time_step, forces_.template begin<1>(contacts_, chunk),
                 forces_.template places<1>(contacts_, chunk), forces_.template normals_of<1>(), contact_moments_.data(), ahead, energy[1],
                 [&](std::size_t pack) {
-                    if (auto const k = find_deep_overlap(store, contacts_, pack); k >= 0) deep_overlap_[std::size_t(chunk)] = k;
-                });
+                    if (auto const found = find_deep_overlap(store, contacts_, pack, deepest_); found[0] >= 0)
+                        deep_overlap_[std::size_t(chunk)] = found;
+                },
+                deepest_);
     }
     /// As force_store::with_sums().
     template <class Use>
@@ -191,11 +195,13 @@ public:
         return total;
     }
 
-    /// Internal index of a particle that overlaps another by more than a radius, -1 when there is none.
-    std::int32_t deep_overlap() const noexcept {
-        for (auto const k : deep_overlap_)
-            if (k >= 0) return k;
-        return -1;
+    /// \param limit of the overlap of two particles in contact, over the smaller radius, 1; infinite: none
+    void set_deepest_overlap(double limit) noexcept { deepest_ = Real(limit); }
+    /// Internal indices of two particles in contact that overlap by more than that, {-1, -1} when there are none.
+    std::array<std::int32_t, 2> deep_overlap() const noexcept {
+        for (auto const& pair : deep_overlap_)
+            if (pair[0] >= 0) return pair;
+        return {-1, -1};
     }
 
     /// Calls visit(i, j, normal, normal_stiffness, shear_stiffness, prestress, lever_i, lever_j) for every bond and
@@ -235,6 +241,12 @@ public:
     std::span<bond_record const> bond_records() const noexcept { return bond_records_; }
     parameter_table<ContactLaw, Real> const& contact_parameters() const noexcept { return contact_parameters_; }
     parameter_table<BondLaw, Real> const& bond_parameters() const noexcept { return bond_parameters_; }
+    /// Row of bond_parameters() of a bond, by its number, intact or not.
+    std::size_t row_of_bond(store_type const& store, std::int32_t bond) const noexcept {
+        auto const& ids = bond_records_[std::size_t(bond)].particles;
+        auto const i = store.internal(std::size_t(ids[0])), j = store.internal(std::size_t(ids[1]));
+        return std::size_t(bond_row(store, bond, std::min(i, j), std::max(i, j)));
+    }
     typename Damping::parameters const& damping() const noexcept { return damping_; }
     verlet_list<search_type> const& neighbors() const noexcept { return neighbors_; }
 
@@ -290,7 +302,7 @@ private:
         auto const chunks = std::size_t(forces_.chunks());
         chunk_events_.resize(chunks);
         energy_.resize(chunks);
-        deep_overlap_.assign(chunks, -1);
+        deep_overlap_.assign(chunks, {-1, -1});
     }
 
     [[gnu::noinline]] void break_bonds(store_type const& store, int chunk, std::size_t pack, Real time_step) {
@@ -327,7 +339,8 @@ private:
     std::vector<std::vector<pending_event>> chunk_events_;
     std::vector<break_event<Dim>> events_;
     std::vector<std::array<pair_energy, 3>> energy_; // of bonds, of contacts, correction for bonds that failed
-    std::vector<std::int32_t> deep_overlap_;
+    std::vector<std::array<std::int32_t, 2>> deep_overlap_;
+    Real deepest_ = 1; ///< overlap over the smaller radius, beyond which it is one of them
     std::array<double, 2> fracture_energy_{};
 };
 

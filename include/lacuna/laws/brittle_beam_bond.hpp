@@ -125,6 +125,12 @@ struct brittle_beam_bond {
         return p.spring.normal_stiffness;
     }
 
+    /// The compression at which the bond gives way without end, N.
+    template <int Dim, class T>
+    static T compressive_limit(parameters<T> const& p, T radius_i, T radius_j) {
+        return brittle_spring_bond::compressive_limit<Dim>(p.spring, radius_i, radius_j);
+    }
+
 private:
     /// a / k, and 0 for a spring that is not there.
     template <class T>

@@ -196,6 +196,14 @@ struct brittle_spring_bond_with {
     static T stiffness(parameters<T> const& p) {
         return p.normal_stiffness;
     }
+
+    /// Of envelopes that crush: the compression at which the bond gives way without end, N.
+    template <int Dim, class T>
+    static T compressive_limit(parameters<T> const& p, T radius_i, T radius_j)
+        requires(Envelope::crushes)
+    {
+        return p.tensile_strength * Area::template area<Dim>(radius_i, radius_j, p.thickness);
+    }
 };
 
 /// The paper's bond.

@@ -12,7 +12,8 @@ namespace lacuna {
 /// What one chunk of particles reports from its motion in one step.
 template <class Real>
 struct motion_report {
-    record<Real> fastest{Real(0)}; ///< largest |velocity| by component, m/s
+    record<Real> fastest{Real(0)}; ///< largest |velocity| by component, m/s; in 2D the third is the surface speed
+    record<Real> turning{Real(0)}; ///< 3D: largest surface speed by component, m/s
     record<Real> poison{Real(0)};  ///< zero; not a number once a velocity is not finite
     double kinetic = 0;            ///< kinetic energy at the positions of the forces, J
     double rotation = 0;           ///< of it: of spins, J
@@ -41,6 +42,7 @@ struct symplectic_euler {
         rec path(time_step); // the fourth lane holds the radius
         path.v[3] = 0;
         rec fastest(Real(0)), poison(Real(0));
+        [[maybe_unused]] rec spinning(Real(0));
         Real const* loads = store.loads_of(first);
         [[maybe_unused]] bool const torqued = store.torques().size() > 0;
         for (int k = 0; k < count; ++k) {
@@ -82,6 +84,7 @@ struct symplectic_euler {
                 store.surface_speeds().set(p, turned);
                 store.quaternions().set(p, turn(store.quaternions()[p], turned, time_step / store.radius(p)));
                 fastest = max(abs(next), fastest);
+                spinning = max(abs(turned), spinning);
                 poison += (next + turned) * rec(Real(0));
                 if constexpr (WithEnergy) {
                     add_energy(store, p, velocity, next, load, force, drag, report);
@@ -92,6 +95,7 @@ struct symplectic_euler {
             }
         }
         report.fastest = fastest;
+        if constexpr (Dim == 3) report.turning = spinning;
         report.poison = poison;
     }
 

@@ -198,6 +198,7 @@ public:
         bool const moves = axis < Dim ? free_[k] >> axis & 1 : (free_[k] & turns) != 0;
         return moves ? Real(1) / (axis < Dim ? mass_[k] : moment_of_inertia(k)) : Real(0);
     }
+    bool held(std::size_t k, int axis) const noexcept { return !(free_[k] >> axis & 1); } ///< along `axis`, by fix()
     /// \}
 
     /// \name All particles

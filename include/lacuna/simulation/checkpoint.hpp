@@ -49,6 +49,7 @@ std::uint64_t settings_hash(simulation<Model> const& sim) {
     auto settings = sim.settings();
     settings.threads = 1;
     settings.keep_pair_forces = true;
+    settings.guards = {};
     bytes(settings);
     auto const& store = sim.particles();
     for (std::size_t k = 0; k < store.size(); ++k)

@@ -1,19 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <span>
 #include <string>
 
 #include <lacuna/core/error.hpp>
+#include <lacuna/core/points.hpp>
+#include <lacuna/interactions/contact_list.hpp>
 #include <lacuna/motion/symplectic_euler.hpp>
 #include <lacuna/observe/energy_ledger.hpp>
 #include <lacuna/particles/store.hpp>
 #include <lacuna/pores/pore_network.hpp>
+#include <lacuna/simulation/growth_watch.hpp>
 
 /// \file
-/// What is looked at after each step: whether the state still means anything.
+/// What is looked at after each step: whether the state still means anything. See guard_parameters.
 
 namespace lacuna {
 
@@ -30,25 +35,24 @@ template <class Real, int Dim>
                                  std::string const& what, std::string const& cause) {
     long long const id = k < 0 ? -1 : store.id(std::size_t(k));
     std::string text = "unstable run at step " + std::to_string(now.step) + ", time " + to_text(now.time) + " s: ";
-    if (k >= 0) {
-        text += "particle " + std::to_string(id) + " at (";
-        for (int axis = 0; axis < Dim; ++axis)
-            text += (axis ? ", " : "") + to_text(double(store.position(std::size_t(k))[axis]));
-        text += ") m: ";
-    }
+    if (k >= 0) text += "particle " + std::to_string(id) + " at " + to_text(store.position(std::size_t(k))) + " m: ";
     throw unstable_run(text + what + "; likely cause: " + cause, now.step, id);
 }
 
 /// Looks at the reports of a step.
 /// \param smallest_radius of all particles, m
-/// \return an upper bound of the path of every particle in the step, m
-/// \throws unstable_run for a velocity that is no number and a particle that moved more than a tenth of its radius
-template <class Real, int Dim>
-Real checked_motion(particle_store<Real, Dim> const& store, std::span<motion_report<Real> const> reports, Real time_step,
-                    Real smallest_radius, moment const& now) {
-    record<Real> fastest(Real(0)), poison(Real(0));
+/// \param limit of the path of a particle in a step over its radius, 1; infinite: none
+/// \param cause callable (k) -> why a particle moves so fast, or -1: any; the text
+/// \throws unstable_run for a velocity that is no number, a particle that moved further than the limit, and one that
+///         turned by more than ten times the limit in rad
+template <class Real, int Dim, class Cause>
+largest_motion<Real> checked_motion(particle_store<Real, Dim> const& store, std::span<motion_report<Real> const> reports,
+                                    Real time_step, Real smallest_radius, double limit, moment const& now,
+                                    Cause const& cause) {
+    record<Real> fastest(Real(0)), turning(Real(0)), poison(Real(0));
     for (auto const& r : reports) {
         fastest = max(r.fastest, fastest);
+        turning = max(r.turning, turning);
         poison += r.poison;
     }
     if (!(poison[0] + poison[1] + poison[2] == Real(0))) {
@@ -56,51 +60,31 @@ Real checked_motion(particle_store<Real, Dim> const& store, std::span<motion_rep
             auto const v = store.velocity(k);
             for (int axis = 0; axis < Dim; ++axis)
                 if (!std::isfinite(v[axis]))
-                    throw_unstable(store, now, std::int32_t(k), "its velocity is not a number",
-                                   "a load that is not a number, coinciding particles, or an unstable time step");
+                    throw_unstable(store, now, std::int32_t(k), "its velocity is not a number", cause(std::int32_t(k)));
         }
-        throw_unstable(store, now, -1, "a velocity or spin is not a number", "an unstable time step");
+        throw_unstable(store, now, -1, "a velocity or spin is not a number", cause(-1));
     }
-    Real squared = 0;
+    Real squared = 0, turned = Dim == 2 ? fastest[2] * fastest[2] : Real(0);
     for (int axis = 0; axis < Dim; ++axis) squared += fastest[axis] * fastest[axis];
-    Real const path = std::sqrt(squared) * time_step;
-    if (path > smallest_radius / 10)
+    for (int axis = 0; Dim == 3 && axis < 3; ++axis) turned += turning[axis] * turning[axis];
+    largest_motion<Real> const moved{std::sqrt(squared) * time_step, std::sqrt(turned) * time_step};
+    if (moved.path > smallest_radius * Real(limit))
         for (std::size_t k = 0; k < store.size(); ++k) {
             Real const own = norm(store.velocity(k)) * time_step / store.radius(k);
-            if (own > Real(0.1))
+            if (own > Real(limit))
                 throw_unstable(store, now, std::int32_t(k),
-                               "it moved " + to_text(double(own)) + " of its radius in one step (limit 0.1)",
-                               "the time step is above the stable one, or a load is very large");
+                               "it moved " + to_text(double(own)) + " of its radius in one step (limit " + to_text(limit) + ")",
+                               cause(std::int32_t(k)));
         }
-    return path;
+    Real const most = Real(10 * limit);
+    if (moved.arc > smallest_radius * most)
+        for (std::size_t k = 0; k < store.size(); ++k)
+            if (Real const own = norm(store.spin(k)) * time_step; own > most)
+                throw_unstable(store, now, std::int32_t(k),
+                               "it turned by " + to_text(double(own)) + " rad in one step (limit " + to_text(10 * limit) + ")",
+                               cause(std::int32_t(k)));
+    return moved;
 }
-
-/// Watches the largest speed of a run for growth that no load causes: by four times and more in each of four runs of
-/// sixteen steps. Under a load a speed rises with the time, under one that rises itself with its square, and at an impact
-/// once; only what feeds on itself goes on like that.
-template <class Real>
-class growth_watch {
-public:
-    /// \param path upper bound of the path of every particle in the step, m
-    /// \param least below which motion is nothing but rounding, m
-    /// \return whether energy runs away
-    bool grows(long long step, Real path, Real least) noexcept {
-        if (step % window != 0) return false;
-        bool const again = path > least && path >= 4 * before_ && before_ > 0;
-        growing_ = again ? growing_ + 1 : 0;
-        before_ = path;
-        return growing_ >= 4;
-    }
-    template <class Archive>
-    void serialize(Archive& ar) {
-        ar(before_, growing_);
-    }
-
-private:
-    static constexpr long long window = 16;
-    Real before_ = 0;
-    int growing_ = 0;
-};
 
 /// Internal index of the fastest particle.
 template <class Real, int Dim>
@@ -111,29 +95,98 @@ std::int32_t fastest_particle(particle_store<Real, Dim> const& store) noexcept {
     return std::int32_t(fastest);
 }
 
-/// \throws unstable_run when the speeds of a run grow as growth_watch has it, or more than half of its energy has come
-///         from nowhere (ledger: nullptr where none is kept)
+/// What the growth of speeds is called where a run is stopped.
+inline std::string growth_text() { return "the speeds grow fourfold in every 16 steps and turn round in nearly every step"; }
+
+/// \throws unstable_run when the speeds of a run grow as growth_watch has it
 template <class Real, int Dim>
-void check_energy(particle_store<Real, Dim> const& store, growth_watch<Real>& watch, energy_ledger const* ledger,
-                  Real path, Real smallest_radius, moment const& now) {
-    Real const least = Real(1e-9) * smallest_radius;
-    if (watch.grows(now.step, path, least))
+void check_growth(particle_store<Real, Dim> const& store, growth_watch<Real, Dim> const& watch,
+                  largest_motion<Real> const& moved, Real smallest_radius, moment const& now) {
+    if (watch.runs_away())
         throw_unstable(store, now, fastest_particle(store),
-                       "it is the fastest, and the speeds grow fourfold in every 16 steps: " +
-                           to_text(double(path / smallest_radius)) + " of the smallest radius in one step",
+                       "it is the fastest, and " + growth_text() + ": " +
+                           to_text(double(std::max(moved.path, moved.arc) / smallest_radius)) +
+                           " of the smallest radius in one step",
                        "energy runs away: the time step is above the stable one");
-    if (ledger && path > least && ledger->residual() > 0.5 * ledger->largest())
+}
+
+/// \param rounding energy that rounding may have made, J
+/// \throws unstable_run when more than half of the energy of a run has come from nowhere, and more than rounding makes
+template <class Real, int Dim>
+void check_energy(particle_store<Real, Dim> const& store, energy_ledger const& ledger, double rounding, moment const& now) {
+    if (double const residual = ledger.residual(); residual > 0.5 * ledger.largest() && residual > rounding)
         throw_unstable(store, now, fastest_particle(store),
-                       "it is the fastest, and " + to_text(ledger->residual()) + " J of at most " +
-                           to_text(ledger->largest()) + " J have come from nowhere",
+                       "it is the fastest, and " + to_text(residual) + " J of at most " + to_text(ledger.largest()) +
+                           " J have come from nowhere",
                        "energy runs away: the time step is above the stable one, or a law makes energy");
+}
+
+/// Of the bonds that were made at less than `limit` times the smaller radius of overlap, one that overlaps more by now;
+/// its slot, or -1.
+/// \param deep_at_start labels of the others, sorted
+template <class Real, int Dim, class Table>
+std::int64_t find_deep_bond(particle_store<Real, Dim> const& store, Table const& bonds, double limit,
+                            std::span<std::int32_t const> deep_at_start) noexcept {
+    for (std::size_t s = 0; s < bonds.slots(); ++s) {
+        if (bonds.is_filler(s, store.size()) || !(double(overlap_of(store, bonds.i(s), bonds.j(s))) > limit)) continue;
+        if (!std::binary_search(deep_at_start.begin(), deep_at_start.end(), bonds.label(s))) return std::int64_t(s);
+    }
+    return -1;
+}
+
+/// Of bonds that give way without end in compression, one that does so now: "bond 3 between particles 5 and 7 ..."; else "".
+template <class Law, class Real, int Dim, class Interactions>
+std::string crushed_bond([[maybe_unused]] particle_store<Real, Dim> const& store,
+                         [[maybe_unused]] Interactions const& pairs) {
+    using parameters = typename Law::template parameters<Real>;
+    if constexpr (requires(parameters p, Real r) { Law::template compressive_limit<Dim>(p, r, r); }) {
+        auto const& bonds = pairs.bonds();
+        for (std::size_t s = 0; s < bonds.slots(); ++s) {
+            if (bonds.is_filler(s, store.size())) continue;
+            auto const i = std::size_t(bonds.i(s)), j = std::size_t(bonds.j(s));
+            auto const& row = pairs.bond_parameters().row[std::size_t(bonds.parameter()[s])];
+            Real const limit = Law::template compressive_limit<Dim>(row, store.radius(i), store.radius(j));
+            Real const distance = norm(store.nearest(store.position(j) - store.position(i)));
+            if (Law::stiffness(row) * (distance - bonds.get(s).state.rest_distance) > Real(-0.999) * limit) continue;
+            auto const ids = std::minmax(store.id(i), store.id(j));
+            return "bond " + std::to_string(bonds.label(s)) + " between particles " + std::to_string(ids.first) + " and " +
+                   std::to_string(ids.second) + " is crushed: at its limit, " + to_text(double(limit)) +
+                   " N in compression, it gives way without end";
+        }
+    }
+    return "";
+}
+
+/// The same for one pair of particles that is, or has been, bonded. \param i, j internal indices
+template <class Law, class Real, int Dim, class Interactions>
+std::string bond_between(particle_store<Real, Dim> const& store, Interactions const& pairs, std::int32_t i, std::int32_t j) {
+    auto const a = store.id(std::size_t(i)), b = store.id(std::size_t(j));
+    auto const& records = pairs.bond_records();
+    for (std::size_t n = 0; n < records.size(); ++n) {
+        auto const& ids = records[n].particles;
+        if (std::minmax(ids[0], ids[1]) != std::minmax(a, b)) continue;
+        std::string text = "bond " + std::to_string(n) + " between them ";
+        using parameters = typename Law::template parameters<Real>;
+        if constexpr (requires(parameters p, Real r) { Law::template compressive_limit<Dim>(p, r, r); }) {
+            auto const& row = pairs.bond_parameters().row[pairs.row_of_bond(store, std::int32_t(n))];
+            Real const limit = Law::template compressive_limit<Dim>(row, store.radius(std::size_t(i)), store.radius(std::size_t(j)));
+            if (double(limit) < 1e20)
+                return text + "is crushed: at its limit, " + to_text(double(limit)) +
+                       " N in compression, it gives way without end; a greater strength, a smaller load, or a law of bonds "
+                       "that does not yield in compression";
+        }
+        return text + "is compressed by more than it can bear: the load is too high for its stiffness";
+    }
+    return "";
 }
 
 /// In space a regular triangulation has flat tetrahedra, which turn over at any small strain; at their least volume they
 /// push nobody. There a pore may turn over by a tenth of pore_network::size.
+/// \param crushed callable () -> crushed_bond()
 /// \throws unstable_run for a pore whose corners have passed each other: it has no volume any more
-template <class Real, int Dim>
-void check_pores(particle_store<Real, Dim> const& store, pore_network<Real, Dim> const& net, moment const& now) {
+template <class Real, int Dim, class Crushed>
+void check_pores(particle_store<Real, Dim> const& store, pore_network<Real, Dim> const& net, moment const& now,
+                 Crushed const& crushed) {
     if (net.bare()) return;
     for (std::size_t p = 0; p < net.pores(); ++p) {
         typename pore_mesh<Dim>::simplex corners;
@@ -142,12 +195,14 @@ void check_pores(particle_store<Real, Dim> const& store, pore_network<Real, Dim>
         if (size > (Dim == 2 ? Real(0) : Real(-0.1) * net.size[p])) continue;
         std::string who;
         for (auto const k : corners) who += " " + std::to_string(store.id(std::size_t(k)));
+        std::string cause = "particles have passed each other: the deformation is too large for the pores of the start; " +
+                            std::string(Dim == 2 ? "remeshing makes new ones" : "in space there is no remeshing");
+        if (std::string const bond = crushed(); !bond.empty()) cause += "; " + bond;
         throw_unstable(store, now, corners[0],
                        "pore " + std::to_string(p) + " between particles" + who + " is turned over, its " +
                            (Dim == 2 ? "area" : "volume") + " is " + to_text(double(size)) +
                            (Dim == 2 ? " m^2" : " m^3"),
-                       "particles have passed each other: the deformation is too large for the pores of the start; " +
-                           std::string(Dim == 2 ? "remeshing makes new ones" : "in space there is no remeshing"));
+                       cause);
     }
 }
 

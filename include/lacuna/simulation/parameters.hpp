@@ -12,6 +12,7 @@
 #include <lacuna/motion/velocity_verlet.hpp>
 #include <lacuna/particles/material.hpp>
 #include <lacuna/pores/remesh.hpp>
+#include <lacuna/simulation/guard_parameters.hpp>
 
 namespace lacuna {
 
@@ -43,7 +44,9 @@ struct simulation_parameters {
     /// Velocities given to particles are those at the time of the positions: velocity Verlet. Else they are those of
     /// half a step before.
     bool velocities_on_time = starts_on_time<typename Model::integrator>;
-    bool allow_unstable_step = false;               ///< run even with a time step above the bound
+    /// Run even with a time step above the bound; then growing speeds and energy from nowhere end no run either.
+    bool allow_unstable_step = false;
+    guard_parameters guards{};                      ///< what ends a run
     double start_time = 0;                          ///< s
     int threads = 1;                                ///< takes effect in programs built with OpenMP
     /// Keep the forces of all pairs after a step, for pair_force() and force(). Without, each force is forgotten once it
@@ -77,6 +80,7 @@ struct simulation_parameters {
         remeshing.validate("remeshing");
         if (dim == 3 && remeshing.rule != remesh_rule::never)
             refuse("remeshing.rule", "when_needed", "never: in space pores keep their mesh");
+        guards.validate("guards");
         require_not_negative("time_step", time_step);
         require_positive("safety", safety);
         require_finite("start_time", start_time);

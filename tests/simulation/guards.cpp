@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Guards tell a step that is too long from physics that grows by itself.
+
+#include <cmath>
+#include <string>
+
+#include "catch.hpp"
+#include "simulation/setups.hpp"
+
+using namespace setups;
+
+namespace {
+
+/// What a run says when it is stopped; "" when it is not.
+template <class Model>
+std::string said(lacuna::simulation<Model>& run, int steps) {
+    try {
+        for (int n = 0; n < steps; ++n) run.step_with_energy();
+    } catch (lacuna::unstable_run const& e) {
+        return e.what();
+    }
+    return "";
+}
+
+/// Five discs that overlap by a tenth, the outer ones held, the inner ones a little beside the line.
+lacuna::simulation<plane> squeezed_row(lacuna::simulation_parameters<plane> p) {
+    lacuna::packing<double, 2> row;
+    for (int k = 0; k < 5; ++k) row.add({0.9 * k, k == 0 || k == 4 ? 0.0 : k % 2 == 1 ? 1e-8 : -1e-8}, 0.5);
+    lacuna::simulation<plane> run(row, p);
+    run.fix(0);
+    run.fix(4);
+    return run;
+}
+
+} // namespace
+
+TEST_CASE("a row of discs that is squeezed buckles at its rate", "[guards]") {
+    // Three discs between two that are held: m y_j'' = P / d (2 y_j - y_{j-1} - y_{j+1}), P = k (2 r - d). The fastest
+    // mode is (1, -sqrt 2, 1), with g^2 = (2 + sqrt 2) P / (m d): 21.97 / s.
+    double const force = 1e6 * 0.1, mass = 1000 * pi * 0.25, rate = std::sqrt((2 + std::sqrt(2.0)) * force / (mass * 0.9));
+    REQUIRE_THAT(rate, WithinRel(21.97, 1e-3));
+    auto run = squeezed_row(springs<plane>(1e6, 0));
+    auto const amplitude = [&] {
+        return (run.position(1)[1] - std::sqrt(2.0) * run.position(2)[1] + run.position(3)[1]) / 4;
+    };
+    double from = 0, to = 0, first = 0, last = 0;
+    for (int n = 0; n < 3000 && std::fabs(amplitude()) < 0.05; ++n) {
+        run.step_with_energy();
+        double const a = std::fabs(amplitude());
+        if (a > 1e-6 && from == 0) from = run.time(), first = a;
+        if (a < 1e-3) to = run.time(), last = a;
+    }
+    REQUIRE_THAT(std::log(last / first) / (to - from), WithinRel(rate, 0.01));
+    REQUIRE(std::fabs(amplitude()) >= 0.05);
+    REQUIRE(said(run, 100).empty());
+    REQUIRE(std::fabs(run.energy().residual()) < 1e-2 * run.energy().largest());
+}
+
+TEST_CASE("a shallow truss of two bars snaps through beyond its limit load, not below", "[guards]") {
+    // Half span b, height h: F(y) = 2 k y (L0 / L - 1), L^2 = b^2 + y^2, is largest where L^3 = L0 b^2.
+    double const b = 2, h = 0.3, k = 1, l0 = std::hypot(b, h), l = std::cbrt(l0 * b * b), y = std::sqrt(l * l - b * b);
+    double const limit = 2 * k * y * (l0 / l - 1);
+    for (double const share : {0.95, 1.05}) {
+        lacuna::packing<double, 2> truss;
+        truss.add({-b, 0}, 0.5);
+        truss.add({0, h}, 0.5);
+        truss.add({b, 0}, 0.5);
+        truss.bonds = {{0, 1}, {1, 2}};
+        auto p = springs<plane>(k, 0, 0, unit_density(2));
+        lacuna::simulation<plane> run(truss, p);
+        run.fix(0);
+        run.fix(2);
+        run.apply(1, {0, -share * limit}, 0, 1000); // much longer than a swing
+        bool below = false;
+        for (int n = 0; run.time() < 1500; ++n) {
+            run.step_with_energy();
+            below = below || run.position(1)[1] < -0.5 * h;
+        }
+        INFO(share);
+        CHECK(below == (share > 1));
+    }
+}
+
+TEST_CASE("a chain that falls and whips runs", "[guards]") {
+    auto p = springs<plane>(1e5, 0, 0, unit_density(2));
+    p.gravity = {0, -10};
+    lacuna::simulation<plane> run(chain<2>(12), p);
+    run.fix(0);
+    double fastest = 0;
+    for (int n = 0; run.time() < 6; ++n) {
+        run.step_with_energy();
+        fastest = std::max(fastest, norm(run.velocity(11)));
+    }
+    // Faster than anything that falls by the length of the chain.
+    CHECK(fastest > std::sqrt(2 * 10 * 22.0));
+    CHECK(std::fabs(run.energy().residual()) < 1e-2 * run.energy().largest());
+}
+
+TEST_CASE("a step that has become too long is caught within 100 steps, by the speeds alone", "[guards]") {
+    // Where a neighbour is held, a pair swings at sqrt(k / m), and 2 s is stable; set free, at sqrt(2 k / m).
+    for (double const share : {1.005, 1.05, 1.2}) {
+        auto p = springs<plane>(1, 0, 0, unit_density(2));
+        p.time_step = share * std::sqrt(2.0);
+        p.guards.motion = false;
+        p.guards.overlap = false;
+        for (bool const guarded : {true, false}) {
+            p.guards.growth = guarded;
+            lacuna::simulation<plane> run(chain<2>(2), p);
+            run.fix(0);
+            run.set_velocity(1, {1e-8, 0});
+            run.run(10);
+            run.fix(0, {});
+            std::string text;
+            try {
+                run.run(100);
+            } catch (lacuna::unstable_run const& e) {
+                text = e.what();
+            }
+            INFO(share << ": " << text);
+            if (guarded)
+                CHECK_THAT(text, contains_text("grow fourfold") && contains_text("turn round") && contains_text("time step"));
+            else
+                CHECK(text.find("fourfold") == std::string::npos);
+        }
+    }
+}
+
+TEST_CASE("spins that run away are caught within 100 steps", "[guards]") {
+    // Discs that are held in place and turn against each other: k_s (r w_1 + r w_2)^2, I = m r^2 / 2: omega^2 = 4 k_s / m
+    // for the pair; with the rotation of one held half of it.
+    auto p = springs<plane>(1, 1, 0, unit_density(2));
+    auto q = springs<space>(1, 1, 0, unit_density(3)); // I = 2/5 m r^2: omega^2 = 5 k_s / m, one alone 2.5 k_s / m
+    auto const play = [](auto model, auto parameters, double step, double spin) {
+        using type = decltype(model);
+        parameters.time_step = step;
+        lacuna::simulation<type> run(chain<type::dim>(2), parameters);
+        for (std::size_t k : {0, 1}) run.fix(k, {true, true, true, k == 0});
+        lacuna::vec<double, lacuna::rotation_dim<type::dim>> w{};
+        w[w.size() - 1] = spin;
+        run.set_spin(1, w);
+        run.run(10);
+        run.fix(0, {true, true, true, false});
+        run.run(100);
+    };
+    auto const text = [&](auto model, auto const& parameters, double step, double spin) {
+        return thrown_by([&] { play(model, parameters, step, spin); });
+    };
+    CHECK_THAT(text(plane{}, p, 1.01, 1e-10), contains_text("grow fourfold") && contains_text("turn round"));
+    CHECK_THAT(text(space{}, q, 1.01 * std::sqrt(0.8), 1e-10), contains_text("grow fourfold") && contains_text("turn round"));
+    // Where they grow too fast to be watched for long.
+    CHECK_THAT(text(plane{}, p, 1.2, 1e-8), contains_text("rad in one step (limit 1)") && contains_text("above the stable one"));
+    CHECK_THAT(text(space{}, q, 1.2 * std::sqrt(0.8), 1e-8),
+               contains_text("rad in one step (limit 1)") && contains_text("above the stable one"));
+}
+
+TEST_CASE("who allows an unstable step is stopped by what it comes to only", "[guards]") {
+    auto p = springs<plane>(1, 0, 0, unit_density(2));
+    p.allow_unstable_step = true;
+    p.time_step = 1.002 * std::sqrt(2.0);
+    p.guards.overlap = false;
+    {
+        lacuna::simulation<plane> run(chain<2>(2), p);
+        run.set_velocity(0, {1e-12, 0});
+        REQUIRE_THAT(said(run, 10000), contains_text("of its radius in one step") && contains_text("turn round in nearly every step") &&
+                                           contains_text("the time step is above the stable one"));
+        REQUIRE(run.steps() > 100);
+    }
+    p.guards.motion = false;
+    lacuna::simulation<plane> run(chain<2>(2), p);
+    run.set_velocity(0, {1e-12, 0});
+    REQUIRE(said(run, 300).empty());
+    REQUIRE(run.kinetic_energy() > 1);
+}
+
+TEST_CASE("guards that cannot be are refused", "[guards]") {
+    auto p = springs<plane>(1, 0);
+    for (double const bad : {0.0, -1.0, std::nan("")}) {
+        p.guards.overlap_limit = bad;
+        REQUIRE_THROWS_WITH(p.validate(), contains_text("guards.overlap_limit = " + lacuna::to_text(bad)));
+        p.guards.overlap_limit = 1;
+        p.guards.motion_limit = bad;
+        REQUIRE_THROWS_WITH(p.validate(), contains_text("guards.motion_limit = " + lacuna::to_text(bad)));
+        p.guards.motion_limit = 0.1;
+    }
+}
+
+TEST_CASE("overlaps are named, with a bond that gives way", "[guards]") {
+    auto p = springs<plane>(1e6, 5e5, 0.5, 1000, 1e4, 1e4);
+    auto const squeeze = [](auto const& parameters) {
+        lacuna::simulation<plane> run(chain<2>(2), parameters);
+        run.fix(0);
+        run.apply(1, {-1.5e4, 0}, 0, 1);
+        return said(run, 3000);
+    };
+    SECTION("a crushed bond") {
+        REQUIRE_THAT(squeeze(p), contains_text("bond 0 between them is crushed") && contains_text("10000 N") &&
+                                     contains_text("gives way without end"));
+    }
+    SECTION("not where it is switched off, or where the limit is further away") {
+        p.guards.overlap = false;
+        REQUIRE(squeeze(p).find("overlap") == std::string::npos);
+        p.guards.overlap = true;
+        p.guards.overlap_limit = 1.5;
+        REQUIRE_THAT(squeeze(p), contains_text("more than 1.5 of a radius") && contains_text("bond 0"));
+    }
+    SECTION("a contact that is overcome") {
+        auto q = springs<plane>(1e6, 0);
+        lacuna::simulation<plane> run(chain<2>(2, false), q);
+        run.fix(0);
+        run.apply(1, {-1e6, 0}, 0, 1);
+        REQUIRE_THAT(said(run, 3000), contains_text("it overlaps another particle by more than a radius: particle") &&
+                                          contains_text("of the smaller radius") && contains_text("contact stiffness"));
+    }
+    SECTION("bonds that were made deep are let be") {
+        lacuna::packing<double, 2> two;
+        two.add({0, 0}, 0.5);
+        two.add({0.3, 0}, 0.5);
+        two.bonds = {{0, 1}};
+        lacuna::simulation<plane> run(two, springs<plane>(1, 0, 0, unit_density(2)));
+        run.set_velocity(0, {0.01, 0});
+        REQUIRE(said(run, 500).empty());
+    }
+}
+
+TEST_CASE("a fast particle: what made it fast", "[guards]") {
+    auto p = springs<plane>(1, 0, 0, unit_density(2));
+    p.time_step = 0.1;
+    lacuna::simulation<plane> given(chain<2>(3, false), p);
+    given.set_velocity(1, {0, 0.6});
+    CHECK_THAT(said(given, 1), contains_text("likely cause: the velocity that it was given"));
+    lacuna::simulation<plane> moved(chain<2>(3, false), p);
+    moved.move(1, {0, 0.6}, 5);
+    CHECK_THAT(said(moved, 100), contains_text("likely cause: the velocity that is prescribed to it"));
+    lacuna::simulation<plane> loaded(chain<2>(3, false), p);
+    loaded.apply(1, {0, 6});
+    CHECK_THAT(said(loaded, 5), contains_text("the load on it, (0, 6) N, is large for its mass"));
+    lacuna::packing<double, 2> close;
+    close.add({0, 0}, 0.5);
+    close.add({0.6, 0}, 0.5);
+    auto q = springs<plane>(100, 0, 0, unit_density(2));
+    lacuna::simulation<plane> pressed(close, q);
+    CHECK_THAT(said(pressed, 100), contains_text("overlap at the start") && contains_text("0 and 1"));
+}
