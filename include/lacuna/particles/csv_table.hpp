@@ -94,7 +94,7 @@ struct csv_table {
     char separator = ',';
 
     /// Reads a text. The heading is its first line; where that is a row of numbers, a comment above it: "# x y z r", or
-    /// Yade's "#format x_y_z_r". Other lines that begin with # and empty ones are passed over.
+    /// Yade's with the word format and x_y_z_r. Other lines that begin with # and empty ones are passed over.
     /// \param name of the file in messages
     /// \param is_heading tells whether cells of a comment name columns
     /// \throws std::invalid_argument naming file and line

@@ -14,13 +14,13 @@
 #include <lacuna/particles/particle_list.hpp>
 
 /// \file
-/// Particles in CSV files. A heading names the columns, in any order: position.x, position.y (position.z), radius, and if
-/// wanted material, density, velocity.x, velocity.y (velocity.z), spin (in space spin.x, spin.y, spin.z). SI units.
+/// Particles in CSV files. A heading names the columns, in any order: position.x, position.y (position.z), radius, and
+/// if wanted material, density, velocity.x, velocity.y (velocity.z), spin (in space spin.x, spin.y, spin.z). SI units.
 ///
-/// Files of other programs are read where they mean one thing only: columns named x, y, z, r, vx, diameter, matId; ParaView's
-/// Points:0 or Points_0; capitals; SI units in brackets, as radius [m]; cells parted by semicolons, tabs or blanks; decimal
-/// commas; a heading in a comment, as Yade's "#format x_y_z_r"; in the plane columns of the third axis that are 0. Empty
-/// lines and those that begin with # are passed over. A column that says nothing of these is refused.
+/// Files of other programs are read where they mean one thing only: columns named x, y, z, r, vx, diameter, matId;
+/// ParaView's Points:0 or Points_0; capitals; SI units in brackets, as radius [m]; cells parted by semicolons, tabs or
+/// blanks; decimal commas; a heading in a comment, as Yade writes it (the word format, x_y_z_r); in the plane columns of
+/// the third axis that are 0. Empty lines and comments are passed over. A column that says nothing of these is refused.
 
 namespace lacuna {
 
@@ -80,7 +80,8 @@ template <int Dim>
 class particle_csv_reader {
 public:
     particle_csv_reader(std::string_view text, std::string const& name, std::vector<std::string> const& materials)
-        : name_(name), materials_(materials), table_(csv_table::read(text, name, [](auto const& cells) { return all_known(cells); })) {}
+        : name_(name), materials_(materials),
+          table_(csv_table::read(text, name, [](auto const& cells) { return all_known(cells); })) {}
 
     particle_list<Dim> read() {
         find_columns();
@@ -111,9 +112,11 @@ private:
     }
     static bool all_known(std::vector<std::string> const& cells) {
         std::string unit;
-        return !cells.empty() && std::none_of(cells.begin(), cells.end(), [&](auto const& c) { return plain_name(c, unit).empty(); });
+        auto const unknown = [&](std::string const& cell) { return plain_name(cell, unit).empty(); };
+        return !cells.empty() && std::none_of(cells.begin(), cells.end(), unknown);
     }
-    static void require_unit(std::string const& plain, std::string const& unit, std::string const& where, std::string const& cell) {
+    static void require_unit(std::string const& plain, std::string const& unit, std::string const& where,
+                             std::string const& cell) {
         auto const is = [&](std::initializer_list<char const*> units) {
             return std::find(units.begin(), units.end(), unit) != units.end();
         };
@@ -124,7 +127,8 @@ private:
                           : spin  ? is({"rad/s", "1/s", "s-1", "s^-1"})
                           : dense ? is({"kg/m3", "kg/m^3", "kg/m\u00b3", "kg m-3", "kg m^-3"})
                                   : unit == "-";
-        if (!good) refuse(where, in_quotes(cell), std::string("in ") + (length ? "m" : speed ? "m/s" : spin ? "rad/s" : dense ? "kg/m^3" : "no unit"));
+        char const* const si = length ? "m" : speed ? "m/s" : spin ? "rad/s" : dense ? "kg/m^3" : "no unit";
+        if (!good) refuse(where, in_quotes(cell), std::string("in ") + si);
     }
     void find_columns() {
         std::string const where = name_ + ":" + std::to_string(table_.heading.line);
