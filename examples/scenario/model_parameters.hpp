@@ -116,6 +116,7 @@ lacuna::simulation_parameters<Model> model_parameters(scenario const& s) {
     p.follow_critical_step = set.time_step == 0;
     p.velocities_on_time = set.velocity_verlet;
     p.allow_unstable_step = set.allow_unstable_step;
+    p.guards = set.guards;
     p.threads = set.threads;
     if constexpr (lacuna::has_fluid<Model>)
         if (s.water) p.flow = flow_of(*s.water);

@@ -43,6 +43,12 @@ settings read_settings(value const& from) {
         s.mass_damping = damping.number("mass");
         s.viscous_damping = damping.number("viscous");
     }
+    if (t.has("guards")) {
+        table const guards(t["guards"], "simulation.guards");
+        s.guards = {guards.flag("growth"), guards.flag("energy"), guards.flag("overlap"), guards.number("overlap_limit"),
+                    guards.flag("motion"), guards.number("motion_limit"), guards.flag("resolution"), guards.flag("walls"),
+                    guards.flag("pores")};
+    }
     return s;
 }
 

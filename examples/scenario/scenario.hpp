@@ -11,6 +11,7 @@
 
 #include <lacuna/core/error.hpp>
 #include <lacuna/laws/bond_values.hpp>
+#include <lacuna/simulation/guard_parameters.hpp>
 
 /// \file
 /// A scenario as plain data: what its TOML file says, checked, with every default filled in. SI units.
@@ -44,6 +45,7 @@ struct settings {
     double time_step = 0; ///< 0: auto
     double safety = 0.2;
     bool allow_unstable_step = false;
+    lacuna::guard_parameters guards;
     std::optional<long long> steps;
     std::optional<double> end_time;
     point gravity{};
