@@ -79,7 +79,7 @@ inline constexpr key keys[] = {
     {"bonds", kind::table, "", "", any, with_particles | with_bonds, ""},
     {"bonds.pairs", kind::pairs, "", required, any, listed_bonds, "list of pairs of particles"},
     {"bonds.touching", kind::flag, "", "false", any, always, "all pairs whose gap is at most gap, numbered by particles"},
-    {"bonds.gap", kind::number, "m", required, not_negative, touching_bonds, "the largest of bonded pairs"},
+    {"bonds.gap", kind::number, "m", required, not_negative, touching_bonds, "the largest of bonded pairs, but for rounding (1e-9 of the radii); at most ten times the median radius"},
     {"bonds.normal_stiffness", kind::each_number, "N/m", "the material's", positive, always, "one or one per pair"},
     {"bonds.shear_stiffness", kind::each_number, "N/m", "the material's", not_negative, always, "one or one per pair"},
     {"bonds.bending_stiffness", kind::each_number, "N m/rad", "from the stiffnesses", not_negative, with_parallel_bonds,

@@ -167,7 +167,7 @@ bonds read_bonds(value const& from, scenario const& s) {
     table const t(from, "bonds");
     bonds b;
     if (t.flag("touching")) {
-        b.pairs = touching_pairs(s.bodies, s.simulation.dimension, t.number("gap"));
+        b.pairs = touching_pairs(s.bodies, s.simulation.dimension, t["gap"]);
     } else {
         std::set<pair> seen;
         for (value const& one : t["pairs"].list()) {

@@ -4,11 +4,13 @@
 #include <vector>
 
 #include "scenario.hpp"
+#include "toml_table.hpp"
 
 namespace lacuna_run {
 
-/// All pairs whose gap is at most `gap`, m, overlapping ones included, sorted.
-std::vector<pair> touching_pairs(particles const& p, int dimension, double gap);
+/// All pairs whose gap is at most `gap`, m, but for rounding (lacuna::touches()), overlapping ones included, sorted.
+/// A gap beyond ten radii, and one with a hundred times as many pairs as particles, is refused.
+std::vector<pair> touching_pairs(particles const& p, int dimension, value const& gap);
 
 /// The row of particles on one side of the body: those whose centre is seen from there, no other disc in front of it;
 /// without those nearer to one of the row's ends than `margin`, m. In the plane.

@@ -45,12 +45,12 @@ packing make_specimen(request const& q) {
     r.seed = q.seed;
     auto p = lacuna::random_packing(r);
     std::vector<lacuna::neighbor_pair> pairs;
-    lacuna::verlet_list<lacuna::cell_grid<double, 2>> near({0.0, widest_gap * r.r_max});
+    lacuna::verlet_list<lacuna::cell_grid<double, 2>> near({0.0, widest_gap * r.r_max * (1 + 1e-8)});
     near.build(lacuna::view_points(p.position), p.radius);
     for (auto const& pair : near.pairs()) {
         auto const i = std::size_t(pair.i), j = std::size_t(pair.j);
-        double const gap = norm(p.position[j] - p.position[i]) - p.radius[i] - p.radius[j];
-        if (gap < widest_gap * std::min(p.radius[i], p.radius[j])) p.bonds.push_back({pair.i, pair.j});
+        double const gap = widest_gap * std::min(p.radius[i], p.radius[j]);
+        if (lacuna::touches(p.position[i], p.radius[i], p.position[j], p.radius[j], gap)) p.bonds.push_back({pair.i, pair.j});
     }
     return p;
 }

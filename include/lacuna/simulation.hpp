@@ -29,6 +29,7 @@
 #include <lacuna/simulation/parameters.hpp>
 #include <lacuna/simulation/particle_access.hpp>
 #include <lacuna/simulation/particle_forces.hpp>
+#include <lacuna/simulation/paths.hpp>
 #include <lacuna/simulation/run_guards.hpp>
 
 namespace lacuna {
@@ -273,7 +274,7 @@ public:
         walls_.archive(ar, store_);
         ar(wall_drive_);
         fluid_.archive(ar, store_);
-        ar(events_, kicked_, motions_, plates_, ledger_, guards_, time_step_, moved_, step_, planned_steps_, planned_end_);
+        ar(events_, kicked_, motions_, plates_, ledger_, guards_, time_step_, step_, planned_steps_, planned_end_);
         ar(clock_.time, clock_.step, clock_.last);
         require_state(motions_.fits(store_.size()), "a motion prescribed to no particle");
         require_state(plates_.fit(store_.size()), "a rigid plate of no particle");
@@ -301,8 +302,8 @@ private:
     template <bool WithEnergy>
     void take_step() {
         settle_time_step();
-        bool const changed = interactions_.update(store_, moved_);
-        if (changed || walls_.outdated(moved_)) update_walls();
+        bool const changed = interactions_.update(store_);
+        if (changed || walls_.outdated(store_)) update_walls();
         // Slips are those of the motion that led here, with the step of then.
         auto const before = real(step_ > 0 ? clock_.last : *time_step_);
         if (changed && parameters_.follow_critical_step) follow_critical_step();
@@ -364,7 +365,8 @@ private:
             });
         }
         collect_events();
-        moved_ = guards_.check_motion(store_, interactions_, reports_, dt, given, now());
+        guards_.check_motion(store_, interactions_, reports_, dt, given, now());
+        count_paths<dim>(std::span<motion_report<real> const>(reports_), dt, interactions_, walls_);
         if constexpr (WithEnergy) {
             auto pairs = interactions_.energy();
             pairs += wall_energy_;
@@ -535,9 +537,7 @@ private:
 
     void update_walls() {
         if (walls_.empty()) return;
-        double mean = 0;
-        for (real const r : store_.radii()) mean += double(r) / double(store_.size());
-        walls_.update(store_, real(parameters_.interactions.skin * mean),
+        walls_.update(store_, interactions_.neighbors().settings().skin,
                       real(parameters_.interactions.initial_contact_tolerance));
     }
 
@@ -591,7 +591,6 @@ private:
         double last;
     };
     step_clock clock_{parameters_.start_time, 0, 0};
-    real moved_ = 0;
     long long step_ = 0, planned_steps_ = 0, planned_end_ = 0;
 };
 

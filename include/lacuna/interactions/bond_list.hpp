@@ -41,11 +41,11 @@ void number_bonds(std::span<bond_record> records, Table const& table, std::size_
 /// Bonds between the given particles, made at the distances they have, in the order of the tables.
 /// \param pairs stable ids
 /// \param row callable (i, j) -> row of the parameter table
-/// \param gap raised to the largest gap that a bond spans, m
+/// \param longest raised to the length of the longest bond, m
 /// \throws std::invalid_argument for bonds between unknown, equal, coinciding or already bonded particles
 template <class Law, class Entry, class Real, int Dim, class Row>
 std::vector<Entry> make_bonds(particle_store<Real, Dim> const& store,
-                              std::span<std::array<std::int32_t, 2> const> pairs, Row const& row, Real& gap) {
+                              std::span<std::array<std::int32_t, 2> const> pairs, Row const& row, Real& longest) {
     std::vector<Entry> bonds;
     bonds.reserve(pairs.size());
     for (std::size_t b = 0; b < pairs.size(); ++b) {
@@ -60,7 +60,7 @@ std::vector<Entry> make_bonds(particle_store<Real, Dim> const& store,
             refuse(name + ".distance", double(distance),
                    "> 0: particles " + std::to_string(pairs[b][0]) + " and " + std::to_string(pairs[b][1]) +
                        " are at the same place " + to_text(store.position(std::size_t(i))) + " m");
-        gap = std::max(gap, distance - touching);
+        longest = std::max(longest, distance);
         bonds.push_back({i, j, row(i, j), std::int32_t(b), Law::template initial<Real, Dim>(distance, touching)});
     }
     std::sort(bonds.begin(), bonds.end(), pair_before<Entry>);

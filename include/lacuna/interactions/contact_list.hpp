@@ -6,12 +6,15 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include <lacuna/core/parallel.hpp>
 #include <lacuna/core/vec.hpp>
+#include <lacuna/laws/pair_motion.hpp>
 #include <lacuna/neighbors/search.hpp>
 #include <lacuna/particles/store.hpp>
+#include <lacuna/particles/touching.hpp>
 
 namespace lacuna {
 
@@ -94,8 +97,15 @@ Real overlap_of(particle_store<Real, Dim> const& store, std::int32_t first, std:
     return (store.radius(i) + store.radius(j) - distance) / std::min(store.radius(i), store.radius(j));
 }
 
-/// History of a pair that becomes a candidate: it touches at r_i + r_j, or, within `tolerance` times the smaller
-/// radius of that, at the distance it has.
+/// Whether a pair of the initial packing touches at zero force at the distance it has: its gap or overlap is at most
+/// `tolerance` times the smaller radius, but for rounding.
+template <class Real, int Dim>
+bool starts_touching(particle_store<Real, Dim> const& store, neighbor_pair const& pair, double tolerance, Real distance) {
+    Real const ri = store.radius(std::size_t(pair.i)), rj = store.radius(std::size_t(pair.j));
+    return abs(distance - (ri + rj)) <= Real(tolerance) * std::min(ri, rj) + touching_slack<Real> * (ri + rj);
+}
+
+/// History of a pair that becomes a candidate: it touches at r_i + r_j, or, where starts_touching(), at the distance it has.
 template <class Law, class Real, int Dim>
 auto first_history(particle_store<Real, Dim> const& store, neighbor_pair const& pair, double tolerance) {
     auto const i = std::size_t(pair.i), j = std::size_t(pair.j);
@@ -103,9 +113,50 @@ auto first_history(particle_store<Real, Dim> const& store, neighbor_pair const& 
     Real start = touching;
     if (tolerance > 0) {
         Real const distance = norm(store.nearest(store.position(j) - store.position(i)));
-        if (abs(distance - touching) <= Real(tolerance) * std::min(store.radius(i), store.radius(j))) start = distance;
+        if (starts_touching(store, pair, tolerance, distance)) start = distance;
     }
     return Law::template initial<Real, Dim>(start, touching);
+}
+
+/// The pairs with a gap that start as touching. Each is sought by its own radii: a large particle has no others look further.
+/// \param search made for the domain of the particles
+/// \return sorted by (i, j)
+template <class Search, class Real, int Dim>
+std::vector<neighbor_pair> pairs_touching_apart(particle_store<Real, Dim> const& store, Search& search, double tolerance) {
+    std::vector<neighbor_pair> pairs;
+    if (!(tolerance > 0)) return pairs;
+    Real first = 0, second = 0;
+    for (Real const r : store.radii()) {
+        second = std::max(second, std::min(first, r));
+        first = std::max(first, r);
+    }
+    // Half the tolerance each, and the largest one no more than it needs with the one that comes next.
+    std::vector<Real> reach;
+    for (Real const r : store.radii())
+        reach.push_back((r + Real(tolerance / 2) * std::min(r, second)) * (1 + 2 * touching_slack<Real>));
+    search.touching_pairs(store.positions(), reach, Real(0), pairs);
+    std::erase_if(pairs, [&](neighbor_pair const& pair) {
+        auto const i = std::size_t(pair.i), j = std::size_t(pair.j);
+        Real const distance = norm(store.nearest(store.position(j) - store.position(i)));
+        return !(distance > store.radius(i) + store.radius(j) && starts_touching(store, pair, tolerance, distance));
+    });
+    return pairs;
+}
+
+/// Whether a contact may have a force beyond r_i + r_j, where no search looks for it, because it carries on from the initial
+/// packing or from a bond. Laws that name `touching_distance` in their history the distance at which the force begins set
+/// it to r_i + r_j once the pair has come apart; of others it is asked what they answer a little closer.
+template <class Law, class Real, int Dim, class Parameters, class Entry>
+bool acts_apart(particle_store<Real, Dim> const& store, Parameters const& parameters, Entry const& contact) {
+    Real const ri = store.radius(std::size_t(contact.i)), rj = store.radius(std::size_t(contact.j));
+    if constexpr (requires { contact.state.touching_distance; }) {
+        return contact.state.touching_distance > ri + rj;
+    } else {
+        auto const way = store.position(std::size_t(contact.j)) - store.position(std::size_t(contact.i));
+        Real const distance = norm(store.nearest(way));
+        pair_motion<Real, Dim> const closer{distance * (1 - 64 * std::numeric_limits<Real>::epsilon()), ri, rj, {}, Real(0)};
+        return distance > ri + rj && Law::evaluate(parameters, closer, contact.state).normal_force != Real(0);
+    }
 }
 
 /// Of the contacts of one pack, two particles that overlap by more than `limit` times the smaller radius, by internal

@@ -152,6 +152,8 @@ public:
         case 3: return use(force_sum<Real, Dim, 3>(rows_, forces_.of(0), chunk));
         case 4: return use(force_sum<Real, Dim, 4>(rows_, forces_.of(0), chunk));
         case 5: return use(force_sum<Real, Dim, 5>(rows_, forces_.of(0), chunk));
+        case force_rows<Real, Dim>::uneven:
+            return use(force_sum<Real, Dim, force_rows<Real, Dim>::uneven>(rows_, forces_.of(0), chunk));
         default: return use(force_sum<Real, Dim>(rows_, forces_.of(0), chunk));
         }
     }

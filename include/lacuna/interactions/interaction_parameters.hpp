@@ -9,7 +9,7 @@ namespace lacuna {
 
 /// Settings of the pair interactions.
 struct interaction_parameters {
-    /// Verlet skin over the mean radius, 1: how much closer two particles come that are no candidates before these are sought
+    /// Verlet skin over the median radius, 1: how much closer two particles come that are no candidates before these are sought
     /// anew.
     double skin = 0.1;
     /// Pairs, and particles at walls, whose gap or overlap in the initial packing is below this fraction of the (smaller)

@@ -38,6 +38,7 @@ public:
     using material = material_of<ContactLaw, BondLaw>;
     using search_type = std::conditional_t<Domain::periodic, periodic_search<Search>, Search>;
     static constexpr int chunk_particles = contact_table::chunk_particles;
+    static_assert(chunk_particles == verlet_list<search_type>::block_particles);
 
     interactions() = default;
     /// \param own values of single bonds: none, or one entry per bond
@@ -52,9 +53,9 @@ public:
                 contact_parameters_.add(ContactLaw::combine(a.contact, b.contact, thickness));
                 bond_parameters_.add(BondLaw::combine(a.bond, b.bond, thickness));
             }
-        Real gap = 0;
+        Real longest = 0;
         auto bond_entries = make_bonds<BondLaw, bond_entry>(
-            store, bonds, [&](std::int32_t i, std::int32_t j) { return parameter_row(store, i, j); }, gap);
+            store, bonds, [&](std::int32_t i, std::int32_t j) { return parameter_row(store, i, j); }, longest);
         if (!own.empty()) {
             give_own_rows(store, bond_entries, own, bond_parameters_);
             bond_rows_.resize(bonds.size());
@@ -62,46 +63,24 @@ public:
         }
         bond_records_.assign(bonds.size(), {});
         for (std::size_t b = 0; b < bonds.size(); ++b) bond_records_[b].particles = bonds[b];
-        double mean = 0, largest = 0;
-        for (Real const r : store.radii()) {
-            mean += double(r) / double(store.size());
-            largest = std::max(largest, double(r));
-        }
-        gap = std::max(gap, Real(parameters.initial_contact_tolerance * largest));
-        neighbors_ = verlet_list<search_type>({Real(parameters.skin * mean), gap});
-        if constexpr (Domain::periodic) {
-            require_long_periods(store, 2 * Real(largest) + gap + neighbors_.settings().skin);
-            neighbors_.set_period(store.period().length);
-        }
-        if (has_contacts()) neighbors_.build(store.positions(), store.radii());
+        make_neighbors(store, longest);
         assign_bonds(store, bond_entries);
         rebuild_tables(store, true);
     }
 
     /// Seeks contact candidates anew when particles have moved so far that the list could miss one; carries
     /// out the failures of the last step. To be called before the forces of a step.
-    /// \param moved upper bound of the path of any particle since the last call
     /// \return whether the tables have changed
-    bool update(store_type const& store, Real moved) {
-        bool sought = false;
-        if (has_contacts()) {
-            path_ += moved;
-            if (!(path_ <= neighbors_.settings().skin / 2)) {
-                // The sum of the largest steps over-estimates every path: measure before searching.
-                path_ = neighbors_.largest_approach(store.positions());
-                // To measure costs little beside a search: it pays where a few steps are gained.
-                if (!(path_ <= neighbors_.settings().skin * Real(0.46))) {
-                    neighbors_.build(store.positions(), store.radii());
-                    path_ = 0;
-                    sought = true;
-                }
-            }
-        }
-        if (sought || !broken_.empty()) {
-            rebuild_tables(store, false);
-            return true;
-        }
-        return false;
+    bool update(store_type const& store) {
+        bool const sought = has_contacts() && neighbors_.due(store.positions());
+        if (sought) neighbors_.build_for_motion(store.positions(), store.radii());
+        if (!sought && broken_.empty()) return false;
+        rebuild_tables(store, false);
+        return true;
+    }
+    /// Counts what the particles of a chunk have moved in a step, at most, m. Due after each step for each chunk.
+    void add_path(int chunk, Real path) noexcept {
+        if (has_contacts()) neighbors_.add_path(std::size_t(chunk), path);
     }
 
     int chunks() const noexcept { return forces_.chunks(); }
@@ -256,12 +235,52 @@ private:
     using bond_entry = typename bond_table::entry;
     using pending_event = bond_failure<contact_entry, Dim>;
 
-    /// \param reach largest distance at which two particles meet, m
-    static void require_long_periods(store_type const& store, Real reach) {
-        for (int axis = 0; axis < Dim; ++axis)
-            if (Real const length = store.period().length[axis]; length > 0 && !(length >= Real(2.01) * reach))
-                refuse("domain.period", double(length),
-                       "0 or at least 2.01 times the distance at which particles meet, " + to_text(2.01 * double(reach)));
+    /// \param bond length of the longest bond, m
+    void make_neighbors(store_type const& store, Real bond) {
+        Real const skin = Real(parameters_.skin) * median_radius(store.radii());
+        Real longest = std::numeric_limits<Real>::infinity();
+        if constexpr (Domain::periodic) {
+            Real first = 0, second = 0;
+            for (Real const r : store.radii()) {
+                second = std::max(second, std::min(first, r));
+                first = std::max(first, r);
+            }
+            Real const reach = first + second + std::max(skin, Real(parameters_.initial_contact_tolerance) * second);
+            for (int axis = 0; axis < Dim; ++axis)
+                if (Real const length = store.period().length[axis]; length > 0) {
+                    require_long_period(length, std::max(reach, bond));
+                    longest = std::min(longest, length / Real(2.005));
+                }
+        }
+        neighbors_ = verlet_list<search_type>({.skin = skin, .margin = 0, .longest = longest});
+        search_type search;
+        if constexpr (Domain::periodic) {
+            neighbors_.set_period(store.period().length);
+            search.set_period(store.period().length);
+        }
+        if (!has_contacts()) return;
+        neighbors_.build_for_motion(store.positions(), store.radii());
+        neighbors_.add(pairs_touching_apart(store, search, parameters_.initial_contact_tolerance));
+    }
+    /// \param reach largest distance at which two particles meet, or length of a bond, m
+    static void require_long_period(Real length, Real reach) {
+        if (!(length >= Real(2.01) * reach))
+            refuse("domain.period", double(length),
+                   "0 or at least 2.01 times the distance at which particles meet, " + to_text(2.01 * double(reach)));
+    }
+    /// Contacts that act where no search looks stay, and those of bonds that have failed come.
+    void hold_contacts(store_type const& store) {
+        bool const may = parameters_.initial_contact_tolerance > 0 || bonds_.size() < bond_records_.size();
+        if (!has_contacts() || !may) return;
+        held_.clear();
+        auto const look = [&](contact_entry const& e) {
+            if (acts_apart<ContactLaw>(store, contact_parameters_.row[std::size_t(e.parameter)], e)) held_.push_back({e.i, e.j});
+        };
+        for (std::size_t s = 0; s < contacts_.slots(); ++s)
+            if (!contacts_.is_filler(s, store.size())) look(contacts_.get(s));
+        for (contact_entry const& e : broken_) look(e);
+        std::sort(held_.begin(), held_.end(), pair_before<neighbor_pair>);
+        neighbors_.add(held_);
     }
     bool has_contacts() const noexcept { return !is_absent<ContactLaw> && parameters_.contacts; }
     std::int32_t parameter_row(store_type const& store, std::int32_t i, std::int32_t j) const noexcept {
@@ -275,6 +294,7 @@ private:
             std::sort(broken_.begin(), broken_.end(), pair_before<contact_entry>);
         }
         if constexpr (!is_absent<ContactLaw>) {
+            hold_contacts(store);
             double const tolerance = first ? parameters_.initial_contact_tolerance : 0;
             auto const make = [&](neighbor_pair const& pair) {
                 return contact_entry{pair.i, pair.j, parameter_row(store, pair.i, pair.j), -1,
@@ -328,7 +348,7 @@ private:
     parameter_table<ContactLaw, Real> contact_parameters_;
     parameter_table<BondLaw, Real> bond_parameters_;
     verlet_list<search_type> neighbors_;
-    Real path_ = 0;
+    std::vector<neighbor_pair> held_; ///< buffer of hold_contacts()
     bond_table bonds_;
     contact_table contacts_;
     force_store<Real, Dim> forces_;

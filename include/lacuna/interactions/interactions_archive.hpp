@@ -26,7 +26,7 @@ struct interactions_archive {
         for (std::size_t s = 0; s < pairs.bonds_.slots(); ++s)
             if (!pairs.bonds_.is_filler(s, store.size())) bonds.push_back(pairs.bonds_.label(s));
         for (auto const& record : pairs.bond_records_) states.push_back(std::int8_t(record.state));
-        ar(pairs.neighbors_, pairs.path_, bonds, fixed_length{states}, pairs.broken_);
+        ar(pairs.neighbors_, bonds, fixed_length{states}, pairs.broken_);
         if constexpr (Archive::is_loading::value) rebuild(pairs, store, bonds, states);
         apply_states(ar, pairs.bonds_);
         apply_states(ar, pairs.contacts_);

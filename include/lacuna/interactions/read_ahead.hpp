@@ -44,16 +44,14 @@ public:
     void build(std::size_t particles, int chunks, Tables const&... tables) {
         first_use_.assign(particles >= few_particles ? std::size_t(chunks) + 2 : 0, particles);
         if (first_use_.empty()) return;
-        std::size_t reached = 0;
-        for (int c = 0; c < chunks; ++c) {
-            first_use_[std::size_t(c)] = reached;
-            auto const look = [&](auto const& table) {
-                if (c >= table.chunks()) return;
-                for (std::size_t s = table.first_slot(c), end = table.first_slot(c + 1); s < end; ++s)
-                    if (!table.is_filler(s, particles)) reached = std::max(reached, std::size_t(table.j(s)) + 1);
-            };
-            (look(tables), ...);
-        }
+        distances_.assign(std::size_t(chunks) + 1, 0);
+        look_at(particles, chunks, std::size_t(chunks), true, tables...);
+        // A few pairs may reach much further than the others, from one end of the body to the other: what they need is not
+        // worth to be asked for at once.
+        std::size_t pairs = 0, beyond = 0, usual = std::size_t(chunks);
+        for (std::size_t const count : distances_) pairs += count;
+        while (usual > 0 && 64 * (beyond + distances_[usual]) <= pairs) beyond += distances_[usual--];
+        if (4 * (usual + 1) < std::size_t(chunks)) look_at(particles, chunks, 4 * (usual + 1), false, tables...);
     }
     /// Whether there is so much that reading ahead pays.
     bool pays() const noexcept { return !first_use_.empty(); }
@@ -64,6 +62,28 @@ public:
     }
 
 private:
+    /// \param limit largest distance of pairs that count, in chunks
+    template <class... Tables>
+    void look_at(std::size_t particles, int chunks, std::size_t limit, bool count, Tables const&... tables) {
+        std::size_t reached = 0;
+        for (int c = 0; c < chunks; ++c) {
+            first_use_[std::size_t(c)] = reached;
+            std::size_t const first = particles * std::size_t(c) / std::size_t(chunks);
+            std::size_t const end = first + particles * (limit + 1) / std::size_t(chunks);
+            auto const look = [&](auto const& table) {
+                if (c >= table.chunks()) return;
+                for (std::size_t s = table.first_slot(c), last = table.first_slot(c + 1); s < last; ++s) {
+                    if (table.is_filler(s, particles)) continue;
+                    auto const j = std::size_t(table.j(s));
+                    if (j < end) reached = std::max(reached, j + 1);
+                    if (count) ++distances_[j > first ? (j - first) * std::size_t(chunks) / particles : 0];
+                }
+            };
+            (look(tables), ...);
+        }
+    }
+
+    std::vector<std::size_t> distances_; // pairs by how many chunks they span
     std::vector<std::size_t> first_use_; // of each chunk, the first particle that no chunk before it reads
 };
 

@@ -4,29 +4,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <span>
-#include <string>
 #include <vector>
 
 #include <lacuna/interactions/law_stiffness.hpp>
 #include <lacuna/interactions/pair_loop.hpp>
+#include <lacuna/interactions/wall.hpp>
 
 namespace lacuna {
-
-/// A rigid, infinite plane. Particles are on the side to which its normal points.
-template <class ContactLaw, int Dim>
-struct wall {
-    vec<double, Dim> point{};  ///< on the plane, m
-    vec<double, Dim> normal{}; ///< any length > 0
-    typename ContactLaw::material material{};
-
-    void validate(std::string const& name) const {
-        for (int axis = 0; axis < Dim; ++axis) require_finite(name + ".point", point[axis]);
-        double const length = norm(normal);
-        if (!(length > 0) || !std::isfinite(length)) refuse(name + ".normal", length, "a vector of finite length > 0");
-        material.validate(name + ".material");
-    }
-};
 
 /// Contacts of particles with walls, by the model's contact law. To the law a wall is a body of radius 0 at the
 /// particle's foot point: the lever arm is the particle's distance from the plane. Walls stand still unless they are
@@ -37,6 +23,8 @@ public:
     using wall_type = wall<ContactLaw, Dim>;
     template <class T>
     using history_of = typename ContactLaw::template history<T, Dim>;
+    /// Particles whose paths are counted together: add_path().
+    static constexpr std::size_t block_particles = 128;
 
     wall_contacts() = default;
     wall_contacts(std::span<wall_type const> walls, std::span<typename ContactLaw::material const> materials,
@@ -52,11 +40,23 @@ public:
     }
 
     bool empty() const noexcept { return walls_.empty(); }
-    /// Whether a particle, or wall, may have moved so far since update() that a contact is not listed.
-    /// \param moved upper bound of the path of any particle since the last call, m
-    bool outdated(Real moved) noexcept {
-        path_ += moved;
-        return !(path_ <= reach_);
+    /// Counts what the particles of a block have moved in a step, at most, m. Due after each step for each block.
+    void add_path(std::size_t block, Real path) noexcept {
+        if (block < path_.size()) path_[block] += path;
+    }
+    /// Whether a particle, or wall, may have moved so far since update() that a contact is not listed. Where paths leave it
+    /// open, it looks at the particles of the block: a fast one has no others looked at.
+    bool outdated(particle_store<Real, Dim> const& store) {
+        if (empty()) return false;
+        if (reach_ < 0) return true;
+        for (std::size_t b = 0; b < path_.size(); ++b) {
+            if (path_[b] + walls_path_ <= room_[b]) continue;
+            Real const clearance = clearance_of(store, b);
+            if (!(clearance > reach_ / 4)) return true;
+            path_[b] = 0;
+            room_[b] = clearance + walls_path_;
+        }
+        return false;
     }
 
     /// Lists the particles that may touch a wall before they have moved by `reach`, keeping known histories.
@@ -65,7 +65,7 @@ public:
     void update(particle_store<Real, Dim> const& store, Real reach, Real tolerance = 0) {
         bool const first = reach_ < 0;
         reach_ = reach;
-        path_ = 0;
+        walls_path_ = 0;
         std::vector<near_wall> fresh;
         std::size_t old = 0;
         for (std::size_t w = 0; w < walls_.size(); ++w)
@@ -73,9 +73,7 @@ public:
                 Real const r = store.radius(k);
                 Real const distance = height(store.position(k), w);
                 bool const close = distance <= r + std::max(reach, tolerance * r);
-                while (old < near_.size() &&
-                       (near_[old].plane < w || (near_[old].plane == w && near_[old].particle < k)))
-                    ++old;
+                while (old < near_.size() && near_[old].before(w, k)) ++old;
                 bool const known = old < near_.size() && near_[old].plane == w && near_[old].particle == k;
                 if (!close) continue;
                 bool const touches = first && std::abs(distance - r) <= tolerance * r;
@@ -83,6 +81,10 @@ public:
                 fresh.push_back(known ? near_[old] : near_wall{w, k, ContactLaw::template initial<Real, Dim>(start, r)});
             }
         near_ = std::move(fresh);
+        std::size_t const blocks = (store.size() + block_particles - 1) / block_particles;
+        path_.assign(blocks, Real(0));
+        room_.resize(blocks);
+        for (std::size_t b = 0; b < blocks; ++b) room_[b] = clearance_of(store, b);
     }
 
     /// Adds the forces of the walls to `out`: a record {F_x, F_y, torque over radius, 0} per particle in 2D, two
@@ -174,7 +176,7 @@ public:
             m.point += way;
             farthest = std::max(farthest, norm(way));
         }
-        path_ += Real(farthest);
+        walls_path_ += Real(farthest);
         return power;
     }
     /// Largest speed of a wall in the last step, m/s.
@@ -210,7 +212,7 @@ public:
     /// Writes or reads what a run changes.
     template <class Archive>
     void archive(Archive& ar, particle_store<Real, Dim> const& store) {
-        ar(near_, fixed_length{force_}, fixed_length{motion_}, reach_, path_);
+        ar(near_, fixed_length{force_}, fixed_length{motion_}, reach_, fixed_length{path_}, fixed_length{room_}, walls_path_);
         for (auto const& n : near_)
             require_state(n.plane < walls_.size() && n.particle < store.size(), "a wall or its particle is none");
     }
@@ -219,8 +221,26 @@ private:
     struct near_wall {
         std::size_t plane, particle;
         history_of<Real> state;
+        bool before(std::size_t w, std::size_t k) const noexcept { return plane < w || (plane == w && particle < k); }
     };
 
+    /// Smallest gap between a wall and a particle of a block that is not listed there.
+    Real clearance_of(particle_store<Real, Dim> const& store, std::size_t block) const noexcept {
+        Real clearance = std::numeric_limits<Real>::infinity();
+        std::size_t const first = block * block_particles, last = std::min(first + block_particles, store.size());
+        for (std::size_t w = 0; w < walls_.size(); ++w) {
+            auto listed = std::partition_point(near_.begin(), near_.end(), [&](near_wall const& n) { return n.before(w, first); });
+            for (std::size_t k = first; k < last; ++k) {
+                if (listed != near_.end() && listed->plane == w && listed->particle == k) {
+                    ++listed;
+                    continue;
+                }
+                Real const gap = height(store.position(k), w) - store.radius(k);
+                clearance = gap >= clearance ? clearance : gap; // a position that is no number leaves none
+            }
+        }
+        return clearance;
+    }
     auto const& row_of(particle_store<Real, Dim> const& store, near_wall const& n) const noexcept {
         return parameters_.row[n.plane * materials_ + std::size_t(store.material(n.particle))];
     }
@@ -272,7 +292,8 @@ private:
     std::vector<vec<double, Dim>> force_;
     std::vector<double> stiffness_;
     Real reach_ = -1; ///< of the list; negative: none was made yet
-    Real path_ = 0;   ///< of the fastest particle and the fastest wall, since update()
+    std::vector<Real> path_, room_; ///< of the particles of each block since the last look, and what it may be
+    Real walls_path_ = 0;           ///< of the fastest wall, since update()
 };
 
 } // namespace lacuna

@@ -100,7 +100,8 @@ concept pair_law_common =
 ///   - `material`: an aggregate of what one material contributes, with `validate(std::string const& name)`;
 ///   - `parameters<T>`: an aggregate of T only, what the formula reads, made by `combine(material, material, thickness)`;
 ///   - `history<T, Dim>`: an aggregate of T (and vec of T) only; a member `shear_force` turns with the pair;
-///     `initial<T, Dim>(distance, touching_distance)` is its state at zero force;
+///     `initial<T, Dim>(distance, touching_distance)` is its state at zero force; while a member `touching_distance` is
+///     larger than the sum of the radii the pair stays in the table, else up to that sum and a skin;
 ///   - `evaluate(parameters<T>, pair_motion<T, Dim>, history<T, Dim>) -> pair_response`: the formula;
 ///   - `stiffness(parameters)` or `stiffness(parameters, pair_motion, history)`: see dashpot_stiffness().
 template <class Law, int Dim>

@@ -13,8 +13,9 @@ namespace lacuna {
 /// extent.
 ///
 /// Particles are put into cells that are as wide as two of them reach (counting sort), so that the partners of
-/// one lie in the cells around its own. Radii that differ much get a grid for each factor of two. Where the
-/// box around all particles would take far more cells than there are particles (one has flown away), rows of
+/// one lie in the cells around its own. Radii that differ much get a grid for each factor of two in which there are
+/// any, around the particles of that size alone: a huge particle makes no one else's cells wider, nor their grid larger.
+/// Where the box around them would take far more cells than there are particles (one has flown away), rows of
 /// cells share a table by their hash. Buffers are kept: a call of the same size allocates nothing.
 template <class Real, int Dim>
 class cell_grid {
@@ -49,7 +50,7 @@ private:
     using cell_index = typename detail::cell_level<Real, Dim>::cell_index;
 
     using level = detail::cell_level<Real, Dim>;
-    static constexpr int max_levels = 7;
+    static constexpr int max_levels = 32;
     static constexpr Real far_cell = Real(1 << 30);
 
     void sort_into_cells(points_view<Real, Dim> const& points, std::span<Real const> radii, Real largest, Real margin) {
@@ -92,47 +93,30 @@ private:
         }
     }
 
+    /// Factors of two by which a particle's reach is smaller than the largest one; the last level holds all below, too.
     std::size_t level_of(Real radius) const noexcept {
         Real const reach = radius + margin_ / 2;
-        std::size_t l = 0;
-        while (l + 1 < max_levels && reach <= bound_[l]) ++l;
-        return l;
+        if (reach > largest_reach_ / 2 || !(reach > 0)) return reach > 0 || !(largest_reach_ > 0) ? 0 : max_levels - 1;
+        int const octave = std::ilogb(largest_reach_ / reach);
+        return octave >= 0 && octave < max_levels ? std::size_t(octave) : max_levels - 1;
     }
 
     void lay_grids(points_view<Real, Dim> const& points, std::span<Real const> radii, Real largest) {
-        std::array<Real, max_levels> reach{};
-        std::array<std::size_t, max_levels> count{};
-        bound_[0] = (largest + margin_ / 2) / 2;
-        for (std::size_t l = 1; l < max_levels; ++l) bound_[l] = bound_[l - 1] / 2;
-        if (radii.empty() || largest == 0) {
-            reach[0] = largest + margin_ / 2;
-            count[0] = points.size();
-        } else {
-            for (Real const r : radii) {
-                std::size_t const l = level_of(r);
-                reach[l] = std::max(reach[l], r + margin_ / 2);
-                ++count[l];
-            }
+        largest_reach_ = largest + margin_ / 2;
+        std::array<level, max_levels> grids;
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            Real const radius = radii.empty() ? Real(0) : radii[i];
+            grids[level_of(radius)].take(points[i], radius + margin_ / 2);
         }
-        vec<Real, Dim> low = points[0];
-        vec<Real, Dim> high = points[0];
-        for (std::size_t i = 1; i < points.size(); ++i)
-            for (int axis = 0; axis < Dim; ++axis) {
-                low[axis] = std::min(low[axis], points(i, axis));
-                high[axis] = std::max(high[axis], points(i, axis));
-            }
         std::size_t base = 0;
         for (std::size_t l = 0; l < max_levels; ++l) {
-            if (count[l] == 0) continue;
-            level grid;
-            grid.reach = reach[l];
-            grid.count = count[l];
+            level& grid = grids[l];
+            if (grid.count == 0) continue;
             grid.base = base;
-            // The smallest grid may hold anything below; its cells stay a bounded part of the largest reach.
-            Real width = 2 * std::max(reach[l], bound_[max_levels - 1]);
-            if (!(width > std::numeric_limits<Real>::min() * 4)) width = width_of_points(low, high, count[l]);
+            Real width = 2 * grid.reach;
+            if (!(width > std::numeric_limits<Real>::min() * 4)) width = width_of_points(grid.low, grid.high, grid.count);
             grid.cells_per_length = 1 / width;
-            fit(grid, points, low, high);
+            fit(grid, points);
             base += grid.cells;
             level_number_[l] = levels_.size();
             levels_.push_back(grid);
@@ -147,18 +131,18 @@ private:
         return width > std::numeric_limits<Real>::min() * 4 && std::isfinite(width) ? width : Real(1);
     }
 
-    void fit(level& grid, points_view<Real, Dim> const& points, vec<Real, Dim> const& low, vec<Real, Dim> const& high) {
+    void fit(level& grid, points_view<Real, Dim> const& points) {
         double const most = 4.0 * double(grid.count) + 64;
         double cells = 1;
         for (int axis = 0; axis < Dim; ++axis) {
-            double const last = std::floor((high[axis] - low[axis]) * grid.cells_per_length);
+            double const last = std::floor((grid.high[axis] - grid.low[axis]) * grid.cells_per_length);
             cells *= last + 1;
             // Beyond 2^23 a float cannot tell one cell from the next.
             if (!(cells <= most) || last > 8e6) {
                 hash(grid, points);
                 return;
             }
-            grid.origin[axis] = low[axis];
+            grid.origin[axis] = grid.low[axis];
             grid.first[axis] = 0;
             grid.last[axis] = Real(last);
             if (axis < 2) (axis == 0 ? grid.columns : grid.rows) = std::uint64_t(last) + 1;
@@ -208,7 +192,14 @@ private:
             low[std::size_t(axis)] = grid.cell(x[axis] - reach, axis);
             high[std::size_t(axis)] = grid.cell(x[axis] + reach, axis);
         }
+        if (levels_.size() > 1 && grid.away(x, reach)) return found;
         auto const width = std::size_t(high[0] - low[0]) + 1;
+        if constexpr (Hashed) {
+            // Wider than the whole table: a huge particle among small ones.
+            double rows = double(high[1] - low[1]) + 1;
+            if constexpr (Dim == 3) rows *= double(high[2] - low[2]) + 1;
+            if (rows * double(width) > double(grid.cells)) return scan<false>(grid.base, grid.cells, i, own, x, 0, found, out);
+        }
         cell_index c = low;
         for (;;) {
             std::uint64_t const row = grid.row(c);
@@ -256,8 +247,8 @@ private:
 
     std::vector<level> levels_;
     std::array<std::size_t, max_levels> level_number_{};
-    std::array<Real, max_levels> bound_{}; // level l + 1 holds a reach of at most bound_[l]
     Real margin_ = 0;
+    Real largest_reach_ = 0;
     int threads_ = 1;
     std::vector<std::vector<neighbor_pair>> parts_;
     // By slot: the particles in the order of their cells, and by their number in that cell.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -18,6 +19,8 @@ struct cell_level {
     Real reach = 0;
     Real cells_per_length = 0;
     vec<Real, Dim> origin{};
+    vec<Real, Dim> low{}; // the box around its particles
+    vec<Real, Dim> high{};
     vec<Real, Dim> first{}; // limits of the cell coordinates; what lies outside goes to the outermost cell
     vec<Real, Dim> last{};
     std::uint64_t columns = 1; // cells along the first and second axis of a grid that is not hashed
@@ -27,6 +30,21 @@ struct cell_level {
     std::size_t count = 0;
     bool hashed = false;
 
+    /// Takes a particle in.
+    void take(vec<Real, Dim> const& x, Real its_reach) noexcept {
+        for (int axis = 0; axis < Dim; ++axis) {
+            low[axis] = count > 0 ? std::min(low[axis], x[axis]) : x[axis];
+            high[axis] = count > 0 ? std::max(high[axis], x[axis]) : x[axis];
+        }
+        reach = std::max(reach, its_reach);
+        ++count;
+    }
+    /// Whether none of its particles is within a distance of a point along some axis.
+    bool away(vec<Real, Dim> const& x, Real distance) const noexcept {
+        bool any = false;
+        for (int axis = 0; axis < Dim; ++axis) any = any || x[axis] + distance < low[axis] || x[axis] - distance > high[axis];
+        return any;
+    }
     // Not decreasing in x, rounding included: the cells of an interval's ends enclose those of its points.
     std::int64_t cell(Real x, int axis) const noexcept {
         Real const t = (x - origin[axis]) * cells_per_length;

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <stdexcept>
 
 #include <nanoflann.hpp>
 
@@ -16,7 +17,6 @@ template <class Real, int Dim>
 struct tree_points {
     std::vector<Real> coordinates; // Dim per point
     std::vector<Real> radii;
-    Real largest_radius = 0;
     Real margin = 0;
 
     std::size_t kdtree_get_point_count() const noexcept { return radii.size(); }
@@ -27,7 +27,8 @@ struct tree_points {
     }
 };
 
-/// Takes what the tree finds around one point. The members are all that nanoflann asks of a result set, in
+/// Takes what the tree finds around one point: the pairs of which it is the larger particle (of equal ones the first), so that
+/// no particle has to look as far as the largest of all could reach it. The members are all that nanoflann asks of a result set, in
 /// version 1.4 and in those from 1.5 on, which have other search parameters and result types of their own.
 template <class Real, int Dim>
 class tree_row {
@@ -37,7 +38,7 @@ public:
 
     tree_row(tree_points<Real, Dim> const& points, std::size_t i, std::vector<neighbor_pair>& out)
         : points_(points), i_(i), out_(out) {
-        Real const reach = (points.radii[i] + points.largest_radius) + points.margin;
+        Real const reach = (points.radii[i] + points.radii[i]) + points.margin;
         // The tree looks for strictly less, its path sums round, and a square may underflow.
         Real const squared = reach * reach * (1 + rounding_slack<Real>);
         worst_ = std::nextafter(std::max(squared, std::numeric_limits<Real>::min()), std::numeric_limits<Real>::max());
@@ -45,12 +46,13 @@ public:
     template <class Index>
     bool addPoint(Real, Index found) {
         auto const j = std::size_t(found);
-        if (j <= i_) return true;
+        Real const own = points_.radii[i_], other = points_.radii[j];
+        if (j == i_ || other > own || (other == own && j < i_)) return true;
         Real d2 = 0;
         for (std::size_t axis = 0; axis < Dim; ++axis)
             d2 = add_square(d2, points_.kdtree_get_pt(i_, axis) - points_.kdtree_get_pt(j, axis));
-        if (in_reach(d2, points_.radii[i_], points_.radii[j], points_.margin)) {
-            out_.push_back({std::int32_t(i_), std::int32_t(j)});
+        if (in_reach(d2, own, other, points_.margin)) {
+            out_.push_back({std::int32_t(std::min(i_, j)), std::int32_t(std::max(i_, j))});
             ++count_;
         }
         return true;
@@ -73,7 +75,7 @@ private:
 
 /// Search by the k-d tree of nanoflann (1.4 or newer): cost n log n for any distribution of the points.
 ///
-/// Radii that differ much cost time: each particle looks as far as the largest one could reach it.
+/// A particle looks only as far as one of its own size could reach it: a huge one costs the others nothing.
 /// The tree takes its nodes from the heap at each build; all else is kept from call to call.
 template <class Real, int Dim>
 class kd_tree {
@@ -93,6 +95,7 @@ public:
         if (this == &other) return *this;
         index_.reset();
         points_.reset();
+        most_pairs_ = other.most_pairs_;
         if (other.points_) {
             points_ = std::make_unique<points_type>(*other.points_);
             index_points();
@@ -107,7 +110,6 @@ public:
         detail::require_length("cutoff", cutoff);
         store(points);
         points_->radii.assign(points.size(), Real(0));
-        points_->largest_radius = 0;
         points_->margin = cutoff;
         index_points();
     }
@@ -115,19 +117,22 @@ public:
         out.clear();
         if (!index_) return;
         for (std::size_t i = 0; i < points_->radii.size(); ++i) {
-            std::size_t const first = out.size();
             detail::tree_row<Real, Dim> row(*points_, i, out);
             index_->findNeighbors(row, &points_->coordinates[i * Dim], {});
-            detail::sort_row(out.data() + first, out.data() + out.size());
+            if (out.size() > most_pairs_) throw std::length_error("kd_tree: more than " + std::to_string(most_pairs_) + " pairs");
         }
+        std::sort(out.begin(), out.end(),
+                  [](neighbor_pair const& a, neighbor_pair const& b) { return a.i < b.i || (a.i == b.i && a.j < b.j); });
     }
+    /// The number of pairs beyond which pairs() and touching_pairs() throw std::length_error, before there is no memory
+    /// left for them; at first there is none.
+    void set_most_pairs(std::size_t most) noexcept { most_pairs_ = most; }
     void touching_pairs(points_view<Real, Dim> const& points, std::span<Real const> radii, Real margin,
                         std::vector<neighbor_pair>& out) {
         detail::require_finite_points(points);
-        Real const largest = detail::require_radii(radii, points.size(), margin);
+        detail::require_radii(radii, points.size(), margin);
         store(points);
         points_->radii.assign(radii.begin(), radii.end());
-        points_->largest_radius = largest;
         points_->margin = margin;
         index_points();
         pairs(out);
@@ -148,6 +153,7 @@ private:
     // The index refers to the points, so that both live on the heap and survive a move of the search.
     std::unique_ptr<points_type> points_;
     std::unique_ptr<index_type> index_;
+    std::size_t most_pairs_ = std::numeric_limits<std::size_t>::max();
 };
 
 } // namespace lacuna

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include <lacuna/neighbors/own_reach.hpp>
 #include <lacuna/neighbors/search.hpp>
 
 namespace lacuna {
@@ -42,15 +43,31 @@ public:
     void touching_pairs(points_view<real_type, dim> const& points, std::span<real_type const> radii, real_type margin,
                         std::vector<neighbor_pair>& out) {
         detail::require_finite_points(points);
-        real_type const largest = detail::require_radii(radii, points.size(), margin);
-        add_images(points, radii, 2 * largest + margin);
+        detail::require_radii(radii, points.size(), margin);
+        add_images(points, radii, margin);
         search_.touching_pairs(view_points(points_), radii_, margin + slack(), out);
         join_images(out);
     }
 
 private:
-    /// The points, brought into one period, and of those near its lower end an image beyond the upper one.
-    void add_images(points_view<real_type, dim> const& points, std::span<real_type const> radii, real_type reach) {
+    /// How far the images of particles reach, and which of them are large: those that stand out, whose images are made at
+    /// both ends, so that those of all others, at one, need not be made as far as a large one reaches.
+    struct reaches {
+        real_type usual, pair; ///< of two that do not stand out; of the two largest, m
+        real_type large;       ///< radius beyond which one stands out, m
+    };
+    static reaches reaches_of(std::span<real_type const> radii, real_type margin) {
+        real_type first = 0, second = 0, usual = 0, large = 2 * median_radius(radii);
+        for (real_type const r : radii) {
+            second = std::max(second, std::min(first, r));
+            first = std::max(first, r);
+            if (r <= large) usual = std::max(usual, r);
+        }
+        return {2 * usual + margin, first + second + margin, large};
+    }
+    /// The points, brought into one period, and of those near its lower end an image beyond the upper one; of large ones
+    /// near the upper end one beyond the lower, too.
+    void add_images(points_view<real_type, dim> const& points, std::span<real_type const> radii, real_type margin) {
         points_.resize(points.size());
         of_.resize(points.size());
         radii_.assign(radii.begin(), radii.end());
@@ -58,23 +75,29 @@ private:
             points_[k] = points[k];
             of_[k] = std::int32_t(k);
         }
+        auto const reach = reaches_of(radii, margin);
         for (int axis = 0; axis < dim; ++axis) {
             real_type const length = period_[axis];
             if (!(length > 0)) continue;
-            if (!(length >= 2 * reach))
-                refuse("period", double(length), "at least twice the distance at which particles meet, " + to_text(double(2 * reach)));
+            if (!(length >= 2 * reach.pair))
+                refuse("period", double(length), "at least twice the distance at which particles meet, " + to_text(double(2 * reach.pair)));
             for (auto& x : points_) x[axis] -= length * std::floor(x[axis] / length);
             // Images of the axes before are copied too: corners have theirs.
             std::size_t const here = points_.size();
             for (std::size_t k = 0; k < here; ++k) {
-                if (!(points_[k][axis] <= reach + slack())) continue;
-                point image = points_[k];
-                image[axis] += length;
-                points_.push_back(image);
-                of_.push_back(of_[k]);
-                if (!radii.empty()) radii_.push_back(radii_[k]);
+                bool const large = !radii.empty() && radii_[k] > reach.large;
+                real_type const own = (large ? 2 * radii_[k] + margin : reach.usual) + slack();
+                if (points_[k][axis] <= own) add_image(k, axis, length);
+                if (large && points_[k][axis] >= length - own) add_image(k, axis, -length);
             }
         }
+    }
+    void add_image(std::size_t k, int axis, real_type shift) {
+        point image = points_[k];
+        image[axis] += shift;
+        points_.push_back(image);
+        of_.push_back(of_[k]);
+        if (!radii_.empty()) radii_.push_back(real_type(radii_[k]));
     }
     /// What the rounding of an image's place can add to a distance.
     real_type slack() const noexcept {
@@ -90,6 +113,7 @@ private:
         std::sort(out.begin(), out.end(),
                   [](neighbor_pair const& a, neighbor_pair const& b) { return a.i < b.i || (a.i == b.i && a.j < b.j); });
         out.erase(std::unique(out.begin(), out.end()), out.end());
+        std::erase_if(out, [](neighbor_pair const& pair) { return pair.i == pair.j; });
     }
 
     Search search_;

@@ -9,6 +9,8 @@
 #include <vector>
 
 #include <lacuna/core/state.hpp>
+#include <lacuna/neighbors/fast_particles.hpp>
+#include <lacuna/neighbors/own_reach.hpp>
 #include <lacuna/neighbors/search.hpp>
 
 namespace lacuna {
@@ -17,6 +19,9 @@ namespace lacuna {
 ///
 /// Built, it holds every pair with distance <= r_i + r_j + margin + skin. As long as no particle is further
 /// than skin / 2 from where it was then, every pair with distance <= r_i + r_j + margin is among them.
+/// Built by build_for_motion(), it holds those with distance <= r_i + s_i + r_j + s_j + margin, where s_i is skin / 2 but for
+/// the few that are much faster than all others, which may go further: then paths are counted block by block, and the
+/// list is due() when one of them may have left its own s_i.
 /// \tparam Search any neighbor_search: `verlet_list<cell_grid<double, 2>>`
 template <neighbor_search Search>
 class verlet_list {
@@ -32,7 +37,11 @@ public:
         real_type skin = 0;
         /// Gap at which two particles already count as neighbours [m], >= 0.
         real_type margin = 0;
+        /// The furthest that two particles may reach for each other [m]: in a domain that repeats itself, half a period.
+        real_type longest = std::numeric_limits<real_type>::infinity();
     };
+    /// Particles whose paths are counted together: add_path().
+    static constexpr std::size_t block_particles = 128;
 
     verlet_list() = default;
     /// \throws std::invalid_argument for a skin or margin that is negative or not finite
@@ -93,11 +102,7 @@ public:
         if (!built_ || points.size() != reference_.size()) return std::numeric_limits<real_type>::infinity();
         real_type largest = 0;
         for (std::size_t i = 0; i < points.size(); ++i) {
-            real_type d2 = 0;
-            for (int axis = 0; axis < dim; ++axis) {
-                real_type const d = points(i, axis) - reference_[i][axis];
-                d2 += d * d;
-            }
+            real_type const d2 = squared_norm(points[i] - reference_[i]);
             if (std::isnan(d2)) return d2;
             largest = std::max(largest, d2);
         }
@@ -106,53 +111,51 @@ public:
 
     /// Half of how much two particles that are no pair of the list have come closer, at most, m: the list holds all pairs
     /// while no particle moves further than what this leaves of skin / 2. At most largest_displacement(); less where
-    /// only some have moved far, and past their neighbours.
+    /// only some have moved far, and past their neighbours. Without those that may go further than skin / 2.
     real_type largest_approach(points_type const& points) {
-        real_type const largest = largest_displacement(points), far = parameters_.skin / 4;
-        fast_.clear();
-        if (!(largest > far) || !std::isfinite(largest) || periodic()) return largest;
-        for (std::size_t i = 0; i < points.size(); ++i) {
-            if (squared_norm(points[i] - reference_[i]) > far * far) fast_.push_back(std::int32_t(i));
-            // Where many move there is nothing to gain.
-            if (fast_.size() > most_fast(points.size())) return largest;
+        if (!built_ || points.size() != reference_.size()) return std::numeric_limits<real_type>::infinity();
+        return find_approach(points).approach;
+    }
+
+    /// Counts the path of the particles of a block, of which none went further since the last call, m.
+    void add_path(std::size_t block, real_type path) noexcept { path_[block] += path + grain_[block]; }
+    /// Whether the list may miss a pair, by the paths that were counted since it was built. Where these leave it open, it
+    /// looks where the particles are.
+    bool due(points_type const& points) {
+        if (!built_ || points.size() != reference_.size()) return true;
+        bool close = false;
+        for (std::size_t b = 0; b < path_.size(); ++b) {
+            if (path_[b] <= room_[b]) continue;
+            room_[b] = measure(points, b);
+            path_[b] = 0;
+            close = close || !(room_[b] > least_room());
         }
-        // If one of them has moved by less than `far`.
-        real_type approach = largest + far;
-        real_type const listed = parameters_.margin + parameters_.skin;
-        // Two that were further apart have not met, nor will before one of them has moved by another half of the skin.
-        real_type const near = real_type(1.01) * (2 * largest_radius_ + listed + 2 * largest);
-        auto const was = [&](std::size_t k) { return reference_[std::size_t(fast_[k])]; };
-        int const along = widest_axis();
-        std::sort(fast_.begin(), fast_.end(), [&](std::int32_t a, std::int32_t b) {
-            return reference_[std::size_t(a)][along] < reference_[std::size_t(b)][along];
-        });
-        for (std::size_t a = 0; a < fast_.size(); ++a)
-            for (std::size_t b = a + 1; b < fast_.size() && was(b)[along] - was(a)[along] <= near; ++b) {
-                auto const i = std::size_t(fast_[a]), j = std::size_t(fast_[b]);
-                real_type const before = norm(was(b) - was(a)), touching = radii_[i] + radii_[j];
-                if (before <= near && before > touching + listed)
-                    approach = std::max(approach, touching + listed - norm(points[j] - points[i]));
-            }
-        return std::min(approach / 2, largest);
+        return close && !make_room(points);
     }
 
     /// Builds the list for these positions [m] and radii [m] in any case.
     void build(points_type const& points, std::span<real_type const> radii) {
-        built_ = false;
-        pairs_.clear();
+        own_.reset(points.size(), parameters_.skin / 2);
+        build_with_own(points, radii);
+    }
+    /// The same, for due(): particles that have come much further than all others since the last build may move further
+    /// than skin / 2 until the next.
+    void build_for_motion(points_type const& points, std::span<real_type const> radii) {
         real_type largest = 0;
         for (real_type const r : radii) largest = std::max(largest, r);
-        real_type const reach = parameters_.margin + parameters_.skin;
-        // Without the slack, a pair a rounding beyond the reach now could be a rounding inside it later.
-        real_type const slack = detail::rounding_slack<real_type> * (2 * largest + reach);
-        search_.touching_pairs(points, radii, reach + slack, pairs_);
-        reference_.resize(points.size());
-        for (std::size_t i = 0; i < points.size(); ++i) reference_[i] = points[i];
-        radii_.assign(radii.begin(), radii.end());
-        largest_radius_ = largest;
-        fast_.reserve(most_fast(points.size()) + 1);
-        built_ = true;
-        ++build_count_;
+        real_type const room = parameters_.longest / 2 - largest - parameters_.margin / 2;
+        own_.choose(points, reference_, radii, parameters_.skin / 2, room);
+        build_with_own(points, radii);
+    }
+    /// Adds pairs to those of the last build, for any distance that they have.
+    /// \param more sorted by (i, j), i < j
+    void add(std::vector<neighbor_pair> const& more) {
+        if (more.empty()) return;
+        auto const before = [](neighbor_pair const& a, neighbor_pair const& b) { return a.i < b.i || (a.i == b.i && a.j < b.j); };
+        auto const middle = std::ptrdiff_t(pairs_.size());
+        pairs_.insert(pairs_.end(), more.begin(), more.end());
+        std::inplace_merge(pairs_.begin(), pairs_.begin() + middle, pairs_.end(), before);
+        pairs_.erase(std::unique(pairs_.begin(), pairs_.end()), pairs_.end());
     }
 
     /// The candidates of the last build, i < j, sorted by (i, j).
@@ -162,7 +165,8 @@ public:
     parameters const& settings() const noexcept { return parameters_; }
     template <class Archive>
     void serialize(Archive& ar) {
-        ar(pairs_, fixed_length{reference_}, build_count_);
+        ar(pairs_, fixed_length{reference_}, build_count_, own_, fixed_length{allowed_}, fixed_length{path_}, fixed_length{room_});
+        require_state(own_.size() == reference_.size(), "how far its particles may move");
         for (std::size_t p = 0; p < pairs_.size(); ++p) {
             auto const [i, j] = pairs_[p];
             require_state(0 <= i && i < j && std::size_t(j) < reference_.size(), "a candidate that is no pair");
@@ -170,24 +174,110 @@ public:
                 require_state(pairs_[p - 1].i < i || (pairs_[p - 1].i == i && pairs_[p - 1].j < j),
                               "candidates out of order");
         }
+        count_grains();
     }
 
 private:
-    static constexpr std::size_t most_fast(std::size_t particles) noexcept { return 64 + particles / 16; }
-    /// Along which the particles in fast_ are furthest from each other.
-    int widest_axis() const noexcept {
-        int widest = 0;
-        real_type most = 0;
-        for (int axis = 0; axis < dim; ++axis) {
-            auto const [low, high] = std::minmax_element(fast_.begin(), fast_.end(), [&](std::int32_t a, std::int32_t b) {
-                return reference_[std::size_t(a)][axis] < reference_[std::size_t(b)][axis];
-            });
-            real_type const width = reference_[std::size_t(*high)][axis] - reference_[std::size_t(*low)][axis];
-            if (width > most) widest = axis;
-            most = std::max(most, width);
+    /// To look costs little beside a search: it pays where a few steps are gained.
+    real_type least_room() const noexcept { return parameters_.skin * real_type(0.04); }
+
+    void build_with_own(points_type const& points, std::span<real_type const> radii) {
+        built_ = false;
+        pairs_.clear();
+        detail::require_radii(radii, points.size(), real_type(0));
+        reach_.resize(points.size());
+        ordinary_radius_ = 0;
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            // Without the slack, a pair a rounding beyond the reach now could be a rounding inside it later.
+            reach_[i] = (radii[i] + own_[i] + parameters_.margin / 2) * (1 + detail::rounding_slack<real_type>);
+            if (own_.ordinary(i)) ordinary_radius_ = std::max(ordinary_radius_, radii[i]);
         }
-        return widest;
+        search_.touching_pairs(points, reach_, real_type(0), pairs_);
+        reference_.resize(points.size());
+        for (std::size_t i = 0; i < points.size(); ++i) reference_[i] = points[i];
+        radii_.assign(radii.begin(), radii.end());
+        fast_.clear(points.size());
+        std::size_t const blocks = (points.size() + block_particles - 1) / block_particles;
+        allowed_.resize(points.size());
+        for (std::size_t i = 0; i < points.size(); ++i) allowed_[i] = own_[i];
+        path_.assign(blocks, real_type(0));
+        room_.resize(blocks);
+        for (std::size_t b = 0; b < blocks; ++b) room_[b] = measure(points, b);
+        count_grains();
+        built_ = true;
+        ++build_count_;
     }
+    /// What the rounding of a place may add to a path in a step.
+    void count_grains() {
+        grain_.assign(path_.size(), real_type(0));
+        for (std::size_t i = 0; i < reference_.size(); ++i)
+            for (int axis = 0; axis < dim; ++axis) {
+                auto& grain = grain_[i / block_particles];
+                grain = std::max(grain, std::abs(reference_[i][axis]) * std::numeric_limits<real_type>::epsilon());
+            }
+    }
+    /// How much further all particles of a block may move.
+    real_type measure(points_type const& points, std::size_t block) const noexcept {
+        real_type room = std::numeric_limits<real_type>::infinity();
+        std::size_t const first = block * block_particles, last = std::min(first + block_particles, points.size());
+        for (std::size_t i = first; i < last; ++i) {
+            real_type const left = allowed_[i] - norm(points[i] - reference_[i]);
+            room = left >= room ? room : left; // a position that is no number leaves none
+        }
+        return room;
+    }
+
+    /// How particles that may move by skin / 2 have approached each other.
+    struct approach_report {
+        real_type approach; ///< see largest_approach()
+        bool by_pairs;      ///< those in fast_ have been looked at two by two; the others have moved by a quarter of the skin at most
+    };
+    approach_report find_approach(points_type const& points) {
+        real_type const far = parameters_.skin / 4;
+        real_type largest = 0;
+        fast_.clear(points.size());
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            if (!own_.ordinary(i)) continue;
+            real_type const d2 = squared_norm(points[i] - reference_[i]);
+            if (std::isnan(d2)) return {d2, false};
+            largest = std::max(largest, d2);
+            if (d2 > far * far) fast_.add(i);
+        }
+        largest = std::sqrt(largest);
+        if (!(largest > far) || !std::isfinite(largest) || periodic() || fast_.too_many()) return {largest, false};
+        real_type const listed = parameters_.margin + parameters_.skin;
+        // Two that were further apart have not met, nor will before one of them has moved by another half of the skin.
+        real_type const near = real_type(1.01) * (2 * ordinary_radius_ + listed + 2 * largest);
+        // At least as much as if one of them has moved by less than `far`.
+        real_type const approach = fast_.largest_approach(largest + far, points, reference_, radii_, listed, near);
+        return {std::min(approach / 2, largest), true};
+    }
+
+    /// Lets particles move further where none has come close to another that it may meet unlisted.
+    /// \return whether that gains anything: whether the list may be kept
+    bool make_room(points_type const& points) {
+        real_type const half = parameters_.skin / 2;
+        auto const found = find_approach(points);
+        real_type const room = half - found.approach;
+        if (!(room >= least_room())) return false;
+        // A fast one counts on the others to stay within a quarter of the skin, and what is left to it.
+        real_type const shift = found.by_pairs ? half / 2 : 0;
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            real_type const moved = norm(points[i] - reference_[i]);
+            if (!own_.ordinary(i)) {
+                allowed_[i] = own_[i] - shift;
+                if (!(allowed_[i] - moved >= least_room())) return false;
+            } else {
+                allowed_[i] = !found.by_pairs ? half : (moved > half / 2 ? moved : half / 2) + room;
+            }
+        }
+        for (std::size_t b = 0; b < path_.size(); ++b) {
+            room_[b] = measure(points, b);
+            path_[b] = 0;
+        }
+        return true;
+    }
+
     static constexpr bool periodic() noexcept {
         return requires(Search s, vec<real_type, dim> p) { s.set_period(p); };
     }
@@ -195,10 +285,12 @@ private:
     parameters parameters_;
     Search search_;
     std::vector<neighbor_pair> pairs_;
-    std::vector<vec<real_type, dim>> reference_;
-    std::vector<real_type> radii_;
-    std::vector<std::int32_t> fast_; // particles that have moved far
-    real_type largest_radius_ = 0;
+    std::vector<vec<real_type, dim>> reference_; // where the particles were at the build
+    own_reach<real_type, dim> own_;
+    std::vector<real_type> radii_, reach_, allowed_; // how far from there each may be
+    std::vector<real_type> path_, room_, grain_;     // by block: path since the last look, what it may be, rounding of a step
+    fast_particles<real_type, dim> fast_;
+    real_type ordinary_radius_ = 0;                  // largest of those that may move by skin / 2
     long long build_count_ = 0;
     bool built_ = false;
 };

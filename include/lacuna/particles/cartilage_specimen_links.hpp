@@ -9,6 +9,7 @@
 
 #include <lacuna/particles/cartilage_specimen_types.hpp>
 #include <lacuna/particles/packing_grid.hpp>
+#include <lacuna/particles/touching.hpp>
 
 namespace lacuna {
 
@@ -24,11 +25,11 @@ inline void link_fibres(cartilage_specimen<double>& s, double tolerance, bool fi
     detail::disc_grid const grid(s.discs.position, 2 * largest);
     for (std::size_t i = 0; i < s.discs.size(); ++i) {
         double const r = s.discs.radius[i];
-        grid.for_each_near(s.discs.position[i], r + largest * (1 + tolerance), [&](std::size_t j) {
+        grid.for_each_near(s.discs.position[i], (r + largest * (1 + tolerance)) * (1 + 1e-8), [&](std::size_t j) {
             bool const both = s.fibre[i] >= 0 && s.fibre[j] >= 0, one = (s.fibre[i] >= 0) != (s.fibre[j] >= 0);
             if (j <= i || !((fibres && both && s.fibre[i] != s.fibre[j]) || (matrix && one))) return;
-            double const gap = norm(s.discs.position[j] - s.discs.position[i]) - r - s.discs.radius[j];
-            if (gap > tolerance * std::min(r, s.discs.radius[j])) return;
+            double const other = s.discs.radius[j];
+            if (!touches(s.discs.position[i], r, s.discs.position[j], other, tolerance * std::min(r, other))) return;
             (both ? to_fibre : to_matrix).push_back({std::int32_t(i), std::int32_t(j)});
         });
     }

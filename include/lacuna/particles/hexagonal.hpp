@@ -6,6 +6,7 @@
 
 #include <lacuna/core/error.hpp>
 #include <lacuna/particles/packing.hpp>
+#include <lacuna/particles/touching.hpp>
 
 namespace lacuna {
 
@@ -14,12 +15,11 @@ inline void require_count(std::string_view field, int value) {
     if (value < 1) refuse(field, double(value), "at least 1");
 }
 
-/// Bonds every pair of a packing of equal particles whose distance is one diameter.
+/// Bonds two particles of a packing if they touch.
 template <class Real, int Dim>
-void bond_touching_equal(packing<Real, Dim>& p, std::int32_t i, std::int32_t j) {
-    Real const reach = Real(2.002) * p.radius[std::size_t(i)];
-    if (squared_norm(p.position[std::size_t(j)] - p.position[std::size_t(i)]) < reach * reach)
-        p.bonds.push_back({i, j});
+void bond_touching(packing<Real, Dim>& p, std::int32_t i, std::int32_t j) {
+    auto const a = std::size_t(i), b = std::size_t(j);
+    if (touches(p.position[a], p.radius[a], p.position[b], p.radius[b])) p.bonds.push_back({i, j});
 }
 } // namespace detail
 
@@ -86,7 +86,7 @@ packing<Real, Dim> hexagonal_rows(int columns, int rows, Real radius, bool bonde
             if (!bonded) continue;
             if (column > 0) p.bonds.push_back({i - 1, i});
             for (std::int32_t j = begin; j < begin + below; ++j)
-                if (j >= begin + column - 2 && j <= begin + column + 2) detail::bond_touching_equal(p, j, i);
+                if (j >= begin + column - 2 && j <= begin + column + 2) detail::bond_touching(p, j, i);
         }
         begin = first;
         below = here;

@@ -11,6 +11,7 @@
 #include <lacuna/core/error.hpp>
 #include <lacuna/core/vec.hpp>
 #include <lacuna/particles/packing_grid.hpp>
+#include <lacuna/particles/touching.hpp>
 
 namespace lacuna {
 
@@ -140,13 +141,13 @@ packing_statistics measure_packing(packing<Real, 2> const& discs, double area, d
     for (std::size_t i = 0; i < x.size(); ++i) {
         std::size_t here = 0;
         double const r = double(discs.radius[i]);
-        grid.for_each_near(x[i], (2 + contact_tolerance) * largest, [&](std::size_t j) {
+        grid.for_each_near(x[i], (2 + contact_tolerance) * largest * (1 + 1e-8), [&](std::size_t j) {
             if (j == i) return;
             double const other = double(discs.radius[j]);
             double const smaller = r < other ? r : other;
             double const gap = (norm(x[j] - x[i]) - r - other) / smaller;
             if (-gap > s.max_overlap) s.max_overlap = -gap;
-            if (gap <= contact_tolerance) ++here;
+            if (touches(x[i], r, x[j], other, contact_tolerance * smaller)) ++here;
         });
         touching += here;
         if (here < 2) ++s.loose;

@@ -44,6 +44,30 @@ constexpr std::uint64_t hilbert_key(std::uint32_t (&x)[std::size_t(Dim)]) noexce
     return key;
 }
 
+/// Along one axis the interval in which almost all points are, or all where few points more do not need much more room: a
+/// particle that has flown away leaves the others in the order they would have without it. Empty for no points.
+/// \throws std::invalid_argument when a coordinate is not finite
+template <class Real, int Dim>
+std::pair<double, double> usual_interval(points_view<Real, Dim> points, int axis, std::vector<double>& buffer) {
+    buffer.clear();
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        if (!std::isfinite(points(i, axis)))
+            refuse("particle " + std::to_string(i) + ".position", double(points(i, axis)), "finite");
+        buffer.push_back(double(points(i, axis)));
+    }
+    if (buffer.empty()) return {0, 0};
+    auto const share = std::ptrdiff_t(buffer.size() / 64);
+    auto const at = [&](std::ptrdiff_t k) {
+        std::nth_element(buffer.begin(), buffer.begin() + k, buffer.end());
+        return buffer[std::size_t(k)];
+    };
+    auto const all = std::minmax_element(buffer.begin(), buffer.end());
+    double const low = *all.first, high = *all.second;
+    double const first = at(share), last = at(std::ptrdiff_t(buffer.size()) - 1 - share), rest = (last - first) / 31;
+    if (high - low <= 2 * (last - first + 2 * rest)) return {low, high};
+    return {std::max(low, first - rest), std::min(high, last + rest)};
+}
+
 } // namespace detail
 
 /// Numbering in which neighbours in space are neighbours in memory: particles along a Hilbert curve.
@@ -54,16 +78,12 @@ constexpr std::uint64_t hilbert_key(std::uint32_t (&x)[std::size_t(Dim)]) noexce
 template <class Real, int Dim>
 std::vector<std::int32_t> spatial_order(points_view<Real, Dim> points) {
     constexpr int bits = 16;
-    Real low[std::size_t(Dim)], span = 0;
+    double low[std::size_t(Dim)], span = 0;
+    std::vector<double> buffer;
     for (int axis = 0; axis < Dim; ++axis) {
-        Real high = low[axis] = points.size() ? points(0, axis) : Real(0);
-        for (std::size_t i = 0; i < points.size(); ++i) {
-            if (!std::isfinite(points(i, axis)))
-                refuse("particle " + std::to_string(i) + ".position", double(points(i, axis)), "finite");
-            low[axis] = std::min(low[axis], points(i, axis));
-            high = std::max(high, points(i, axis));
-        }
-        span = std::max(span, high - low[axis]);
+        auto const [first, last] = detail::usual_interval(points, axis, buffer);
+        low[axis] = first;
+        span = std::max(span, last - first);
     }
     std::vector<std::pair<std::uint64_t, std::int32_t>> keyed(points.size());
     auto const before = [&](auto const& a, auto const& b) {
@@ -77,9 +97,8 @@ std::vector<std::int32_t> spatial_order(points_view<Real, Dim> points) {
     for (std::size_t i = 0; i < points.size(); ++i) {
         std::uint32_t cell[std::size_t(Dim)];
         for (int axis = 0; axis < Dim; ++axis)
-            cell[axis] = span > Real(0)
-                             ? std::uint32_t(double(points(i, axis) - low[axis]) / double(span) * 65535.0 + 0.5)
-                             : 0u;
+            cell[axis] = span > 0 ? std::uint32_t(std::clamp((double(points(i, axis)) - low[axis]) / span, 0.0, 1.0) * 65535.0 + 0.5)
+                                  : 0u;
         keyed[i] = {detail::hilbert_key<Dim, bits>(cell), std::int32_t(i)};
     }
     std::sort(keyed.begin(), keyed.end(), before);
@@ -101,15 +120,11 @@ std::vector<std::int32_t> spatial_order(points_view<Real, Dim> points) {
 template <class Real>
 std::vector<std::int32_t> strip_order(points_view<Real, 2> points) {
     double low[2] = {0, 0}, side[2] = {0, 0};
+    std::vector<double> buffer;
     for (int axis = 0; axis < 2; ++axis) {
-        double high = low[axis] = points.size() ? double(points(0, axis)) : 0.0;
-        for (std::size_t i = 0; i < points.size(); ++i) {
-            if (!std::isfinite(points(i, axis)))
-                refuse("particle " + std::to_string(i) + ".position", double(points(i, axis)), "finite");
-            low[axis] = std::min(low[axis], double(points(i, axis)));
-            high = std::max(high, double(points(i, axis)));
-        }
-        side[axis] = high - low[axis];
+        auto const [first, last] = detail::usual_interval(points, axis, buffer);
+        low[axis] = first;
+        side[axis] = last - first;
     }
     int const along = side[0] > side[1] ? 0 : 1, across = 1 - along;
     double const width = std::sqrt(side[0] * side[1] / double(std::max<std::size_t>(points.size(), 1)));
@@ -127,7 +142,8 @@ std::vector<std::int32_t> strip_order(points_view<Real, 2> points) {
     std::vector<key> keyed(points.size());
     for (std::size_t i = 0; i < points.size(); ++i) {
         double const depth = double(points(i, along)) - low[along];
-        auto const strip = strips < 1e9 && width > 0 ? std::int64_t(depth / width) : std::int64_t(0);
+        auto const strip =
+            strips < 1e9 && width > 0 ? std::int64_t(std::clamp(depth / width, -1e9, 1e9)) : std::int64_t(0);
         double const place = double(points(i, across)) - low[across];
         keyed[i] = {strip, strip % 2 ? -place : place, depth, std::int32_t(i)};
     }

@@ -154,7 +154,7 @@ private:
     }
 
     guard_parameters guards_;
-    extent<real> extent_;
+    body_extent<real> extent_;
     start_pairs start_;
     growth_watch<real, dim> growth_;
     resolution_watch<real, dim> resolution_;

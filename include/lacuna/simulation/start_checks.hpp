@@ -27,7 +27,7 @@ std::string precision_text() {
 
 /// Largest |coordinate| of all particles and the smallest radius, m, and whose they are.
 template <class Real>
-struct extent {
+struct body_extent {
     Real reach = 0, smallest_radius = 1, largest_radius = 0;
     std::int32_t furthest = -1, smallest = -1;
 
@@ -35,8 +35,8 @@ struct extent {
     Real spacing() const noexcept { return std::numeric_limits<Real>::epsilon() * (reach + largest_radius); }
 };
 template <class Real, int Dim>
-extent<Real> extent_of(particle_store<Real, Dim> const& store) noexcept {
-    extent<Real> e;
+body_extent<Real> extent_of(particle_store<Real, Dim> const& store) noexcept {
+    body_extent<Real> e;
     for (std::size_t k = 0; k < store.size(); ++k) {
         for (int axis = 0; axis < Dim; ++axis)
             if (Real const far = std::abs(store.position(k)[axis]); e.furthest < 0 || far > e.reach)
@@ -51,7 +51,7 @@ extent<Real> extent_of(particle_store<Real, Dim> const& store) noexcept {
 /// \throws std::invalid_argument for particles so far from the origin that the smallest radius is less than a thousand
 ///         (1,024) spacings of the numbers there
 template <class Real, int Dim>
-void require_resolved(particle_store<Real, Dim> const& store, extent<Real> const& e) {
+void require_resolved(particle_store<Real, Dim> const& store, body_extent<Real> const& e) {
     double const epsilon = double(std::numeric_limits<Real>::epsilon()), most = double(e.smallest_radius) / (1024 * epsilon);
     if (e.furthest < 0 || !(double(e.reach) > most)) return;
     refuse("particle " + std::to_string(store.id(std::size_t(e.furthest))) + ".position",
