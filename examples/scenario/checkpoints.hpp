@@ -12,9 +12,11 @@
 
 namespace lacuna_run {
 
-/// \throws refusal for a checkpoint of a run with other probes
-inline void check_heading(std::string const& path, journal const& restored, std::string const& heading) {
-    if (restored.heading != heading) throw refusal("checkpoint " + path + ": it was made with other probes");
+/// A run that goes on with other probes tells theirs from there on.
+inline void begin_other_probes(journal& restored, std::string const& heading) {
+    if (restored.heading == heading) return;
+    restored.heading = heading;
+    restored.rows.clear();
 }
 
 } // namespace lacuna_run

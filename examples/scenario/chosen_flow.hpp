@@ -41,6 +41,12 @@ enum class flow_kind { none, explicit_steps, implicit_steps };
 struct chosen_flow {
     struct parameters : lacuna::implicit_flow_parameters<chosen_aperture> {
         flow_kind kind = flow_kind::none;
+        /// Its members, by name; see core/aggregate.hpp.
+        template <class Visit>
+        void for_each_named(Visit const& visit) {
+            lacuna::implicit_flow_parameters<chosen_aperture>::for_each_named(visit);
+            visit("kind", kind);
+        }
         void validate(std::string const& name) const {
             if (kind == flow_kind::implicit_steps)
                 lacuna::implicit_flow_parameters<chosen_aperture>::validate(name);

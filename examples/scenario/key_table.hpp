@@ -108,7 +108,7 @@ inline constexpr key keys[] = {
      "the row of particles whose centre is seen from there"},
     {"loads[].margin_diameters", kind::number, "", "0", not_negative, pressure_given,
      "leaves out those nearer than that many mean diameters to the row's ends"},
-    {"loads[].ramp_time", kind::number, "s", "0", not_negative, always, "linear from zero"},
+    {"loads[].ramp_time", kind::number, "s", "0", not_negative, always, "linear from the load or velocity that acts before, at first none"},
 
     {"fluid", kind::table, "", "none", any, in_plane, "pore fluid"},
     {"fluid.bulk_modulus", kind::number, "Pa", required, positive, always, ""},

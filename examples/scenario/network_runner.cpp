@@ -14,6 +14,7 @@
 #include "model_parameters.hpp"
 #include "pore_view.hpp"
 #include "runner.hpp"
+#include "statement.hpp"
 #include "summary.hpp"
 
 namespace lacuna_run {
@@ -29,6 +30,7 @@ class network_runner final : public runner {
 public:
     explicit network_runner(scenario const& s) : scenario_(s), water_(*s.water) {
         journal_.heading = heading_of(s);
+        told_ = statement_of(s);
         auto p = flow_of(water_);
         p.substeps = 1;
         for (std::size_t k = 0; k < s.bodies.size(); ++k) {
@@ -58,14 +60,15 @@ public:
         std::string const heading = journal_.heading;
         try {
             auto const content = lacuna::read_checkpoint(path);
-            if (content.model != model_text() || content.settings != settings_hash())
+            (void)earlier_scenario(path, content.told, scenario_);
+            if (content.model != model_text() || content.given != shape_text())
                 throw refusal("checkpoint " + path + ": it is of another network");
             lacuna::state_reader state(content.state);
             state(*flow_, journal_, step_);
         } catch (std::runtime_error const& bad) {
             throw refusal(bad.what());
         }
-        check_heading(path, journal_, heading);
+        begin_other_probes(journal_, heading);
 #else
         throw refusal("--restart = \"" + path + "\": must be left out: this program was built without checkpoints");
 #endif
@@ -95,19 +98,16 @@ public:
 private:
 #ifdef LACUNA_RUN_CHECKPOINTS
     static std::string model_text() { return sizeof(Real) == 4 ? "flow alone, float" : "flow alone, double"; }
-    /// Of all that never changes.
-    std::uint64_t settings_hash() const {
+    /// Of what follows from the scenario: the pores and the step.
+    std::string shape_text() const {
         lacuna::state_writer bytes;
-        auto const& net = flow_->network();
-        bytes(net.throat_pore, net.length, time_step_, water_.bulk_modulus, water_.conductivity, water_.implicit);
-        for (std::size_t p = 0; water_.bare() && p < net.pores(); ++p) bytes(Real(net.volume[p]));
-        for (auto const& source : net.sources) bytes(source.name, source.value, source.pores);
-        return lacuna::checksum_of(bytes.bytes());
+        bytes(lacuna::hash_of_shape(flow_->network()), time_step_);
+        return bytes.bytes();
     }
     void save(output_directory const& out) const {
         lacuna::state_writer state;
         state(*flow_, journal_, step_);
-        lacuna::write_checkpoint(out.file("checkpoint.bin"), {model_text(), settings_hash(), state.bytes()});
+        lacuna::write_checkpoint(out.file("checkpoint.bin"), {model_text(), shape_text(), state.bytes(), told_});
     }
 #endif
     points where() const { return lacuna::view_points(position_); }
@@ -186,6 +186,7 @@ private:
     std::vector<Real> radius_;
     std::optional<solver> flow_;
     journal journal_;
+    std::string told_; ///< what the scenario states
     double time_step_ = 0, critical_ = 0;
     long long step_ = 0;
 };

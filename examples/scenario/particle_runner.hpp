@@ -18,6 +18,7 @@
 #include "model_parameters.hpp"
 #include "pore_view.hpp"
 #include "runner.hpp"
+#include "statement.hpp"
 #include "summary.hpp"
 #include "touching.hpp"
 
@@ -40,7 +41,7 @@ class particle_runner final : public runner {
     using vector = lacuna::vec<double, dim>;
 
 public:
-    explicit particle_runner(scenario const& s) : scenario_(s) {
+    explicit particle_runner(scenario const& s) : scenario_(s), told_(statement_of(s)) {
         journal_.heading = heading_of(s);
         build(model_parameters<Model>(s));
         if constexpr (lacuna::has_fluid<Model>) {
@@ -70,8 +71,24 @@ private:
     /// Tells what a run does, step by step.
     class watcher;
 
+    /// What acts on a particle from outside, of all loads together.
+    struct drive {
+        vector force{};
+        lacuna::vec<double, lacuna::rotation_dim<dim>> torque{};
+        double load_ramp = 0, velocity_ramp = 0;
+        bool loaded = false;
+        std::optional<vector> velocity; ///< prescribed
+    };
+    static std::vector<drive> drives_of(scenario const& s);
+    static std::vector<lacuna::fixed_axes> held_axes(scenario const& s);
+    static lacuna::fixed_axes driven_axes(lacuna::fixed_axes const& held) { return {true, true, dim == 3, held.rotation}; }
+
+    lacuna::packing<typename Model::real, dim> packing_of() const;
     void build(lacuna::simulation_parameters<Model> const& p);
     void set_up();
+    void fill();
+    void drive_on(scenario const& before);
+    void save(output_directory const& out) const;
     double settled_step() const;
     void tell_row();
     double read(probe const& p) const;
@@ -85,19 +102,26 @@ private:
     frame_data frame() const;
 
     scenario const& scenario_;
+    std::string const told_; ///< what the scenario states
     std::optional<simulation> sim_;
     journal journal_;
 };
 
 template <class Model>
-void particle_runner<Model>::build(lacuna::simulation_parameters<Model> const& given) {
-    auto p = given;
+lacuna::packing<typename Model::real, particle_runner<Model>::dim> particle_runner<Model>::packing_of() const {
     lacuna::packing<typename Model::real, dim> packing;
     for (std::size_t k = 0; k < scenario_.bodies.size(); ++k)
         packing.add(lacuna::convert<typename Model::real>(to_vec<dim>(scenario_.bodies.position[k])),
                     typename Model::real(scenario_.bodies.radius[k]), scenario_.bodies.material[k]);
     packing.density = scenario_.bodies.density;
     packing.bonds.assign(scenario_.joints.pairs.begin(), scenario_.joints.pairs.end());
+    return packing;
+}
+
+template <class Model>
+void particle_runner<Model>::build(lacuna::simulation_parameters<Model> const& given) {
+    auto p = given;
+    auto const packing = packing_of();
     sim_.emplace(packing, p);
     set_up();
     if (p.time_step > 0 || std::isfinite(sim_->limits().critical())) return;
@@ -117,40 +141,61 @@ void particle_runner<Model>::build(lacuna::simulation_parameters<Model> const& g
 template <class Model>
 void particle_runner<Model>::set_up() {
     auto const& s = scenario_;
+    auto const held = held_axes(s);
+    for (std::size_t k = 0; k < s.bodies.size(); ++k) {
+        if (s.bodies.velocity[k] != point{}) sim_->set_velocity(k, to_vec<dim>(s.bodies.velocity[k]));
+        if (s.bodies.spin[k] != point{}) sim_->set_spin(k, to_vec<lacuna::rotation_dim<dim>>(s.bodies.spin[k]));
+        sim_->fix(k, held[k]);
+    }
+    auto const drives = drives_of(s);
+    for (std::size_t k = 0; k < drives.size(); ++k) {
+        drive const& d = drives[k];
+        if (d.velocity) sim_->move(k, *d.velocity, d.velocity_ramp, driven_axes(held[k]));
+        if (d.loaded) sim_->apply(k, d.force, d.torque, d.load_ramp);
+    }
+    fill();
+}
+
+template <class Model>
+void particle_runner<Model>::fill() {
+    if constexpr (lacuna::has_fluid<Model>)
+        sim_->fill_pores([&](auto points, auto const* radii) {
+            return scenario_.water ? make_network(*scenario_.water, points, radii)
+                                   : lacuna::pore_network<typename Model::real, 2>{};
+        });
+}
+
+template <class Model>
+std::vector<lacuna::fixed_axes> particle_runner<Model>::held_axes(scenario const& s) {
     std::vector<lacuna::fixed_axes> held(s.bodies.size());
     for (fixed const& f : s.bodies.fix)
         for (auto const id : f.particles) {
             auto& h = held[std::size_t(id)];
             h = {h.x || f.x, h.y || f.y, h.z || f.z, h.rotation || f.rotation};
         }
-    for (std::size_t k = 0; k < s.bodies.size(); ++k) {
-        if (s.bodies.velocity[k] != point{}) sim_->set_velocity(k, to_vec<dim>(s.bodies.velocity[k]));
-        if (s.bodies.spin[k] != point{}) sim_->set_spin(k, to_vec<lacuna::rotation_dim<dim>>(s.bodies.spin[k]));
-        sim_->fix(k, held[k]);
-    }
-    struct sum {
-        vector force{};
-        lacuna::vec<double, lacuna::rotation_dim<dim>> torque{};
-        double ramp_time = 0;
-        bool any = false;
-    };
-    std::vector<sum> total(s.bodies.size());
+    return held;
+}
+
+template <class Model>
+auto particle_runner<Model>::drives_of(scenario const& s) -> std::vector<drive> {
+    std::vector<drive> all(s.bodies.size());
     auto const add = [&](std::int32_t id, point const& force, point const& torque, load const& l, std::size_t number) {
-        sum& t = total[std::size_t(id)];
-        if (t.any && t.ramp_time != l.ramp_time)
+        drive& d = all[std::size_t(id)];
+        if (d.loaded && d.load_ramp != l.ramp_time)
             refuse("loads[" + std::to_string(number) + "].ramp_time", lacuna::to_text(l.ramp_time),
-                   "that of the other loads on particle " + std::to_string(id) + ", " + lacuna::to_text(t.ramp_time));
-        t.force += to_vec<dim>(force);
-        t.torque += to_vec<lacuna::rotation_dim<dim>>(torque);
-        t.ramp_time = l.ramp_time;
-        t.any = true;
+                   "that of the other loads on particle " + std::to_string(id) + ", " + lacuna::to_text(d.load_ramp));
+        d.force += to_vec<dim>(force);
+        d.torque += to_vec<lacuna::rotation_dim<dim>>(torque);
+        d.load_ramp = l.ramp_time;
+        d.loaded = true;
     };
     for (std::size_t n = 0; n < s.loads.size(); ++n) {
         load const& l = s.loads[n];
         if (l.what == load::kind::velocity) {
-            for (auto const id : l.particles)
-                sim_->move(std::size_t(id), to_vec<dim>(l.velocity), l.ramp_time,
-                           {true, true, dim == 3, held[std::size_t(id)].rotation});
+            for (auto const id : l.particles) {
+                all[std::size_t(id)].velocity = to_vec<dim>(l.velocity);
+                all[std::size_t(id)].velocity_ramp = l.ramp_time;
+            }
         } else if (l.what == load::kind::force) {
             for (auto const id : l.particles) add(id, l.force, l.torque, l, n);
         } else {
@@ -167,12 +212,25 @@ void particle_runner<Model>::set_up() {
             }
         }
     }
-    for (std::size_t k = 0; k < total.size(); ++k)
-        if (total[k].any) sim_->apply(k, total[k].force, total[k].torque, total[k].ramp_time);
-    if constexpr (lacuna::has_fluid<Model>)
-        sim_->fill_pores([&](auto points, auto const* radii) {
-            return s.water ? make_network(*s.water, points, radii) : lacuna::pore_network<typename Model::real, 2>{};
-        });
+    return all;
+}
+
+/// From a checkpoint on: what is driven as before is left to its ramp, anything else changes from how it is then.
+template <class Model>
+void particle_runner<Model>::drive_on(scenario const& before) {
+    auto const held = held_axes(scenario_);
+    auto const old = drives_of(before), now = drives_of(scenario_);
+    for (std::size_t k = 0; k < now.size(); ++k) {
+        drive const &a = old[k], &b = now[k];
+        bool const as_before = a.velocity.has_value() == b.velocity.has_value() &&
+                               (!b.velocity || (a.velocity_ramp == b.velocity_ramp && *a.velocity == *b.velocity));
+        if (!as_before && b.velocity)
+            sim_->move(k, *b.velocity, b.velocity_ramp, driven_axes(held[k]));
+        else if (!as_before)
+            sim_->release(k, held[k]);
+        if (a.force == b.force && a.torque == b.torque && a.load_ramp == b.load_ramp) continue;
+        sim_->apply(k, b.force, b.torque, b.load_ramp);
+    }
 }
 
 template <class Model>
@@ -216,7 +274,7 @@ public:
         if (due(o.vtk_every)) write_vtk(out_, run_.frame(), run_.scenario_, run_.journal_);
         if (due(o.picture_every)) write_picture(out_, run_.frame(), run_.scenario_, run_.journal_);
 #ifdef LACUNA_RUN_CHECKPOINTS
-        if (due(o.checkpoint_every)) lacuna::save_checkpoint(out_.file("checkpoint.bin"), sim, run_.journal_);
+        if (due(o.checkpoint_every)) run_.save(out_);
 #endif
         return run_.is_over() ? lacuna::run_control::stop : lacuna::run_control::go_on;
     }
@@ -251,15 +309,31 @@ void particle_runner<Model>::run(output_directory const& out) {
 }
 
 template <class Model>
+void particle_runner<Model>::save([[maybe_unused]] output_directory const& out) const {
+#ifdef LACUNA_RUN_CHECKPOINTS
+    auto content = lacuna::checkpoint_of(*sim_, journal_);
+    content.told = told_;
+    lacuna::write_checkpoint(out.file("checkpoint.bin"), content);
+#endif
+}
+
+template <class Model>
 void particle_runner<Model>::restore([[maybe_unused]] std::string const& path) {
 #ifdef LACUNA_RUN_CHECKPOINTS
     std::string const heading = journal_.heading;
     try {
-        lacuna::load_checkpoint(path, *sim_, journal_);
+        auto const content = lacuna::read_checkpoint(path);
+        scenario const before = earlier_scenario(path, content.told, scenario_);
+        // Without anything said to it, it takes what the checkpoint has.
+        auto const p = sim_->settings();
+        sim_.emplace(packing_of(), p);
+        fill();
+        lacuna::resume_from(content, path, *sim_, journal_);
+        drive_on(before);
     } catch (lacuna::checkpoint_error const& bad) {
         throw refusal(bad.what());
     }
-    check_heading(path, journal_, heading);
+    begin_other_probes(journal_, heading);
 #else
     throw refusal("--restart = \"" + path + "\": must be left out: this program was built without checkpoints");
 #endif

@@ -16,7 +16,8 @@
 
 struct model : lacuna::default_model<2> {};
 
-// To go on, a simulation is built as it was built before: the file has the state, not the setting.
+// To go on, a simulation is built as it was built before: the file has the state, and compares the rest. What differs is
+// refused in one line; calls made after load_checkpoint(), a new load for one, hold from there on.
 lacuna::simulation<model> build() {
     auto discs = lacuna::chain<double, 2>(9, 0.5);
     discs.add({4.2, 1.001}, 0.5);

@@ -31,6 +31,7 @@
 #include <lacuna/simulation/particle_forces.hpp>
 #include <lacuna/simulation/paths.hpp>
 #include <lacuna/simulation/run_guards.hpp>
+#include <lacuna/simulation/set_up_record.hpp>
 
 namespace lacuna {
 
@@ -98,12 +99,16 @@ public:
         update_walls();
         reports_.resize(std::size_t(interactions_.chunks()));
         extra_.resize(store_.size() * pair_forces<real, dim>::records_per_pair);
+        set_up_hash places;
+        for (auto const& x : packing.position) places.add(x);
+        set_up_.places = places.value();
     }
 
     /// \name Acting on particles, by the number they have in the packing
     /// \{
     /// Gives a particle a velocity, m/s; the ledger books the kinetic energy as work from outside.
     void set_velocity(std::size_t id, point const& v) {
+        note(set_up::velocities);
         motions_.forget(internal(id));
         give_velocity(internal(id), v);
     }
@@ -114,28 +119,40 @@ public:
         require_not_negative("ramp_time of particle " + std::to_string(id), ramp_time);
         fix(id, axes);
         if (!(ramp_time > 0)) return set_velocity(id, v);
+        note(set_up::velocities);
         motions_.add(internal(id), convert<double>(store_.velocity(internal(id))), v, ramp_time, now().time);
+    }
+    /// Lets a particle go that move() drives: it keeps the velocity it has, and `axes` alone stay fixed.
+    void release(std::size_t id, fixed_axes const& axes = {}) {
+        motions_.forget(internal(id));
+        fix(id, axes);
     }
     /// Gives a particle a spin, rad/s; the ledger books the kinetic energy as work from outside.
     void set_spin(std::size_t id, vec<double, rotation_dim<dim>> const& w) {
         auto const k = internal(id);
+        note(set_up::velocities);
         kicked_.push_back({k, store_.velocity(k), store_.spin(k), true});
         ledger_.book_work(0.5 * double(store_.moment_of_inertia(k)) * (squared_norm(w) - squared_norm(convert<double>(store_.spin(k)))));
         store_.set_spin(k, convert<real>(w));
     }
     /// Prescribes the motion along the given axes: there the particle keeps the velocity it has or is given.
-    void fix(std::size_t id, fixed_axes const& axes = fixed_axes::all()) { store_.fix(internal(id), axes); }
+    void fix(std::size_t id, fixed_axes const& axes = fixed_axes::all()) {
+        store_.fix(internal(id), axes);
+        note(set_up::fixed_axes);
+    }
     /// Joins particles to a rigid, smooth plate, see rigid_plates: from now on they move as one along the axis. Not to
     /// be given velocities of their own afterwards.
     void join(std::span<std::size_t const> ids, int axis) {
         std::vector<std::size_t> particles;
         for (std::size_t const id : ids) particles.push_back(internal(id));
         plates_.add(store_, std::move(particles), axis);
+        note(set_up::plates);
     }
     /// Applies a force and a torque on top of gravity; replaces the ones applied before. N, N m.
-    /// \param ramp_time within which it rises linearly from zero, from now on, s; 0: at once
+    /// \param ramp_time within which the load changes linearly from what it is now, at first zero, to this, s; 0: at once
     void apply(std::size_t id, point const& force, vec<double, rotation_dim<dim>> const& torque, double ramp_time = 0) {
         loads_.set(store_, internal(id), force, torque, ramp_time, now().time);
+        note(set_up::loads);
     }
     void apply(std::size_t id, point const& force, double torque = 0, double ramp_time = 0)
         requires(dim == 2)
@@ -155,9 +172,13 @@ public:
     /// books its work as that of prescribed motion.
     void move_wall(std::size_t w, point const& v, double ramp_time = 0) {
         wall_drive_.move(walls_, w, v, ramp_time, now().time);
+        note(set_up::walls);
     }
     /// Lets a servo hold the stress on a wall from now on, until move_wall().
-    void hold_wall(std::size_t w, wall_servo<dim> const& servo) { wall_drive_.hold(w, servo); }
+    void hold_wall(std::size_t w, wall_servo<dim> const& servo) {
+        wall_drive_.hold(w, servo);
+        note(set_up::walls);
+    }
     /// \}
 
     /// Fills the pores with fluid (models with flow; before the first step).
@@ -179,6 +200,8 @@ public:
         }
         if (!fluid_.get()->network().bare()) apart();
         time_step_.reset();
+        set_up_.pores = hash_of_shape(fluid_.get()->network());
+        set_up_.fluid = hash_of_fluid(fluid_.get()->network());
     }
 
     /// Advances by one step.
@@ -265,6 +288,29 @@ public:
     }
     bool filled() const noexcept { return fluid_.get() != nullptr; }
 
+    /// What it was given before its first step; see simulation/checkpoint.hpp.
+    set_up_record set_up_so_far() const {
+        if (step_ > 0) return set_up_;
+        set_up_record found = set_up_;
+        if (filled()) {
+            auto const now = hash_of_fluid(fluid_.get()->network());
+            if (now != found.fluid || told_pressures(*fluid_.get())) found.call(set_up::fluid);
+            if (found.was_called(set_up::fluid)) found.result[std::size_t(set_up::fluid)] = now;
+        }
+        sum_up_particles(found);
+        auto const id = [&](std::size_t k) { return store_.id(k); };
+        auto const hash = [](auto const&... value) { return set_up_hash::of(value...); };
+        if (found.was_called(set_up::loads))
+            found.result[std::size_t(set_up::loads)] = loads_.sum_of_loads(
+                [&](std::size_t k, auto const&... value) { return hash(id(k), value...); });
+        if (found.was_called(set_up::plates)) found.result[std::size_t(set_up::plates)] =
+                plates_.sum_of_plates([&](std::size_t k) { return hash(id(k)); }, hash);
+        if (found.was_called(set_up::walls)) found.result[std::size_t(set_up::walls)] = wall_drive_.sum_of_motions(walls_, hash);
+        return found;
+    }
+    /// After the state of a checkpoint was read: its record is this one's from now on.
+    void take_set_up(set_up_record const& record) noexcept { set_up_ = record; }
+
     /// Writes or reads all that steps and calls change; see simulation/checkpoint.hpp.
     template <class Archive>
     void serialize(Archive& ar) {
@@ -293,6 +339,34 @@ private:
     using particle_access<real, dim>::store_;
     using particle_access<real, dim>::internal;
 
+    void note(set_up kind) noexcept {
+        if (step_ == 0) set_up_.call(kind);
+    }
+    /// Held axes and velocities, of the particles in any order.
+    void sum_up_particles(set_up_record& to) const {
+        if (!to.was_called(set_up::fixed_axes) && !to.was_called(set_up::velocities)) return;
+        std::uint64_t axes = 0, speeds = 0;
+        for (std::size_t k = 0; k < store_.size(); ++k) {
+            int held = 0;
+            for (int axis = 0; axis <= dim; ++axis) held |= (store_.mobility(k, axis) == real(0)) << axis;
+            if (held) axes += set_up_hash::of(store_.id(k), held);
+            auto const v = store_.velocity(k);
+            auto const w = store_.spin(k);
+            if (squared_norm(v) + squared_norm(w) > real(0)) speeds += set_up_hash::of(store_.id(k), v, w);
+        }
+        speeds += motions_.sum_of_motions(
+            [&](std::size_t k, auto const&... value) { return set_up_hash::of(-1, store_.id(k), value...); });
+        if (to.was_called(set_up::fixed_axes)) to.result[std::size_t(set_up::fixed_axes)] = axes;
+        if (to.was_called(set_up::velocities)) to.result[std::size_t(set_up::velocities)] = speeds;
+    }
+    template <class Flow>
+    static bool told_pressures(Flow const& flow) noexcept {
+        if constexpr (requires { flow.told(); })
+            return flow.told();
+        else
+            return false;
+    }
+
     /// How long a run is decides on the throats that are left out.
     void announce(long long steps) {
         if (step_ + steps != planned_end_) planned_steps_ = steps;
@@ -302,6 +376,7 @@ private:
     template <bool WithEnergy>
     void take_step() {
         settle_time_step();
+        if (step_ == 0) set_up_ = set_up_so_far();
         bool const changed = interactions_.update(store_);
         if (changed || walls_.outdated(store_)) update_walls();
         // Slips are those of the motion that led here, with the step of then.
@@ -591,6 +666,7 @@ private:
         double last;
     };
     step_clock clock_{parameters_.start_time, 0, 0};
+    set_up_record set_up_; ///< up to the first step
     long long step_ = 0, planned_steps_ = 0, planned_end_ = 0;
 };
 

@@ -52,7 +52,7 @@ lacuna::checkpoint_content const& sound(long long steps) {
     auto run = make();
     record cracks;
     run.run(steps, cracks);
-    return content = lacuna::detail::checkpoint_of(run, cracks);
+    return content = lacuna::checkpoint_of(run, cracks);
 }
 
 } // namespace
@@ -62,6 +62,7 @@ extern "C" int LLVMFuzzerInitialize(int* argc, char*** argv) {
         auto const content = sound(steps);
         fuzz::write_seed(*argc, *argv, "file" + std::to_string(steps), "f" + lacuna::pack_checkpoint(content));
         fuzz::write_seed(*argc, *argv, "state" + std::to_string(steps), "s" + content.state);
+        fuzz::write_seed(*argc, *argv, "given" + std::to_string(steps), "e" + content.given);
     }
     return 0;
 }
@@ -75,10 +76,12 @@ extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size
     auto run = fresh;
     record cracks;
     try {
-        if (data[0] % 2 == 0)
-            lacuna::detail::resume_from(lacuna::unpack_checkpoint(bytes, "bytes"), "bytes", run, cracks);
+        if (data[0] % 3 == 0)
+            lacuna::resume_from(lacuna::unpack_checkpoint(bytes, "bytes"), "bytes", run, cracks);
+        else if (data[0] % 3 == 2)
+            lacuna::resume_from({content.model, std::string(bytes), content.state}, "bytes", run, cracks);
         else
-            lacuna::detail::resume_from({content.model, content.settings, std::string(bytes)}, "bytes", run, cracks);
+            lacuna::resume_from({content.model, content.given, std::string(bytes)}, "bytes", run, cracks);
     } catch (lacuna::checkpoint_error const&) {
         fuzz::expect(lacuna::state_hash(run) == before);
         return 0;

@@ -173,9 +173,10 @@ TEST_CASE("a checkpoint that does not belong to a scenario is refused", "[progra
         REQUIRE(std::count(ran.err.begin(), ran.err.end(), '\n') == 1);
         REQUIRE(other.files() == std::vector<std::string>{"case.toml"});
     };
-    refused(with(whole, "friction = 0.2", "friction = 0.3"), "out/checkpoint.bin", "other settings");
-    refused(with(whole, "quantity = \"energy.external\"", "quantity = \"energy.fluid\""), "out/checkpoint.bin", "other probes");
-    refused(with(whole, "[simulation]", "[simulation]\nreal = \"float\""), "out/checkpoint.bin", "another model");
+    refused(with(whole, "friction = 0.2", "friction = 0.3"), "out/checkpoint.bin",
+            "it was made with materials.disc.friction = 0.2, the deck says 0.3");
+    refused(with(whole, "[simulation]", "[simulation]\nreal = \"float\""), "out/checkpoint.bin",
+            "it was made with simulation.real = \"double\", the deck says \"float\"");
     refused(whole, "out/probes.csv", "not a checkpoint of Lacuna");
     refused(whole, "out/nothing.bin", "cannot read");
     here.write("half.bin", program::read_file(here / "out/checkpoint.bin").substr(0, 5000));

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <string>
 #include <utility>
@@ -14,8 +15,8 @@
 
 namespace lacuna {
 
-/// Forces from outside: weight, which is always there, and on single particles a force and a torque that rise
-/// linearly from zero within a ramp time, or are there at once.
+/// Forces from outside: weight, which is always there, and on single particles a force and a torque that are reached
+/// linearly within a ramp time from those that acted before, at first none, or are there at once.
 template <class Real, int Dim>
 class load_set {
 public:
@@ -33,7 +34,7 @@ public:
     /// \param k internal index
     /// \param force N
     /// \param torque N m
-    /// \param ramp_time s, from `now` on; 0: at once
+    /// \param ramp_time within which it changes linearly from the load that acts `now` to this one, s; 0: at once
     /// \throws std::invalid_argument naming the particle
     void set(particle_store<Real, Dim>& store, std::size_t k, point const& force, rotation const& torque,
              double ramp_time, double now) {
@@ -41,7 +42,9 @@ public:
         for (int axis = 0; axis < Dim; ++axis) require_finite(name + ".force", force[axis]);
         for (int axis = 0; axis < rotation_dim<Dim>; ++axis) require_finite(name + ".torque", torque[axis]);
         require_not_negative(name + ".ramp_time", ramp_time);
-        load_[k] = {force, torque, now, ramp_time};
+        one_load& l = load_[k];
+        auto const [force_now, torque_now] = l.at(now);
+        l = {force, torque, force_now, torque_now, now, ramp_time};
         bool const listed = std::find(rising_.begin(), rising_.end(), k) != rising_.end();
         if (ramp_time > 0 && !listed) rising_.push_back(k);
         put(store, k, now);
@@ -60,6 +63,14 @@ public:
         if (!(squared_norm(gravity_) > 0)) return;
         for (std::size_t k = 0; k < store.size(); ++k) put(store, k, 0);
     }
+    /// Sum over the loads of what `hash` makes of particle, numbers and their count: the loads in any order.
+    template <class Hash>
+    std::uint64_t sum_of_loads(Hash const& hash) const {
+        std::uint64_t sum = 0;
+        for (auto const& [k, l] : load_) sum += hash(k, l.force, l.torque, l.from_force, l.from_torque, l.ramp_time);
+        return sum;
+    }
+
     /// \param particles how many there are
     template <class Archive>
     void archive(Archive& ar, std::size_t particles) {
@@ -85,23 +96,29 @@ private:
     struct one_load {
         point force{};
         rotation torque{};
+        point from_force{}; ///< at `start`
+        rotation from_torque{};
         double start = 0, ramp_time = 0;
+
+        std::pair<point, rotation> at(double time) const {
+            double const passed = time - start;
+            double const share = passed >= ramp_time ? 1.0 : passed > 0 ? passed / ramp_time : 0.0;
+            return {from_force * (1 - share) + force * share, from_torque * (1 - share) + torque * share};
+        }
     };
 
     void put(particle_store<Real, Dim>& store, std::size_t k, double time) const {
         auto const found = load_.find(k);
         one_load const l = found == load_.end() ? one_load{} : found->second;
-        double const passed = time - l.start;
-        double const share = passed >= l.ramp_time ? 1.0 : passed > 0 ? passed / l.ramp_time : 0.0;
+        auto const [force, torque] = l.at(time);
         double const weight = double(store.mass(k)) * weight_share_[by_particle_ ? k : std::size_t(store.material(k))];
         vec<Real, Dim> total{};
-        for (int axis = 0; axis < Dim; ++axis)
-            total[axis] = Real(share * l.force[axis] + weight * gravity_[axis]);
+        for (int axis = 0; axis < Dim; ++axis) total[axis] = Real(force[axis] + weight * gravity_[axis]);
         store.set_applied_force(k, total);
         if constexpr (Dim == 2)
-            store.set_applied_torque(k, Real(share * l.torque[0]));
+            store.set_applied_torque(k, Real(torque[0]));
         else if (squared_norm(l.torque) > 0 || store.torques().size() > 0)
-            store.set_applied_torque(k, convert<Real>(l.torque * share));
+            store.set_applied_torque(k, convert<Real>(torque));
     }
 
     point gravity_{};

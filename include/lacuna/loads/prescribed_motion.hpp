@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,14 @@ public:
     template <class Archive>
     void serialize(Archive& ar) {
         ar(rising_);
+    }
+
+    /// Sum over the motions of what `hash` makes of the particle's number and of the motion's: in any order.
+    template <class Hash>
+    std::uint64_t sum_of_motions(Hash const& hash) const {
+        std::uint64_t sum = 0;
+        for (one const& r : rising_) sum += hash(r.particle, r.from, r.to, r.ramp_time);
+        return sum;
     }
 
     /// Whether all motions are of particles below `count`.

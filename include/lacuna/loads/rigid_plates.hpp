@@ -72,6 +72,19 @@ public:
         }
     }
 
+    /// Sum over the plates of what `of_plate` makes of the axis and of the sum of what `of_particle` makes of the particles:
+    /// in any order.
+    template <class OfParticle, class OfPlate>
+    std::uint64_t sum_of_plates(OfParticle const& of_particle, OfPlate const& of_plate) const {
+        std::uint64_t sum = 0;
+        for (std::size_t g = 0; g < axis_.size(); ++g) {
+            std::uint64_t particles = 0;
+            for (auto const k : members(g)) particles += of_particle(k);
+            sum += of_plate(axis_[g], particles);
+        }
+        return sum;
+    }
+
     template <class Archive>
     void serialize(Archive& ar) {
         ar(axis_, end_, particles_);

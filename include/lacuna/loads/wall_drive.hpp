@@ -98,6 +98,21 @@ public:
         return product;
     }
 
+    /// Sum over what moves the walls of what `hash` makes of the wall and of the numbers that say how.
+    template <class Walls, class Hash>
+    std::uint64_t sum_of_motions(Walls const& walls, Hash const& hash) const {
+        std::uint64_t sum = motions_.sum_of_motions([&](auto const&... value) { return hash(0, value...); });
+        for (std::size_t w = 0; w < servo_.size(); ++w) {
+            if (auto const v = walls.next_velocity(w); squared_norm(v) > 0) sum += hash(1, w, v);
+            auto const& law = servo_[w].law;
+            if (!servo_[w].on) continue;
+            sum += hash(2, w, law.stress, law.area, law.max_speed, law.relaxation);
+            for (std::size_t k = 0; !(law.area > 0) && k < law.between.size(); ++k)
+                sum += hash(3, w, k, law.between[k][0], law.between[k][1]);
+        }
+        return sum;
+    }
+
     template <class Archive>
     void serialize(Archive& ar) {
         ar(motions_, fixed_length{servo_});

@@ -15,7 +15,8 @@
 /// The envelope of a checkpoint: what is around the state in the file, and how it is told apart from anything else.
 ///
 ///   magic, 8 bytes | byte order, 4 | format, 4 | library version, 3 x 4 | length of the model's name, 4 | the name |
-///   hash of the settings, 8 | length of the state, 8 | the state | checksum of all before, 8 | end mark, 8
+///   length, 8, and bytes of: what a program was told | what the simulation was given | the state |
+///   checksum of all before, 8 | end mark, 8
 
 namespace lacuna {
 
@@ -45,15 +46,16 @@ public:
 
 /// What a checkpoint holds.
 struct checkpoint_content {
-    std::string model;          ///< dimension, precision and the names of the parts
-    std::uint64_t settings = 0; ///< hash of all that was given and never changes
-    std::string state;          ///< bytes
+    std::string model; ///< dimension, precision and the names of the parts
+    std::string given; ///< bytes: what was stated and never changes, to be compared
+    std::string state; ///< bytes
+    std::string told{}; ///< of a program that compares what it was told itself: its own bytes
 };
 
 namespace detail {
 
 inline constexpr char checkpoint_magic[9] = "LACUNACP", checkpoint_end[9] = "PCANUCAL";
-inline constexpr std::uint32_t checkpoint_format = 5, checkpoint_byte_order = 0x01020304;
+inline constexpr std::uint32_t checkpoint_format = 6, checkpoint_byte_order = 0x01020304;
 inline constexpr std::uint32_t checkpoint_version[3] = {LACUNA_VERSION_MAJOR, LACUNA_VERSION_MINOR,
                                                         LACUNA_VERSION_PATCH};
 
@@ -83,9 +85,10 @@ inline std::string pack_checkpoint(checkpoint_content const& content) {
     for (auto const number : detail::checkpoint_version) detail::put(bytes, number);
     detail::put(bytes, std::uint32_t(content.model.size()));
     bytes += content.model;
-    detail::put(bytes, content.settings);
-    detail::put(bytes, std::uint64_t(content.state.size()));
-    bytes += content.state;
+    for (std::string const* part : {&content.told, &content.given, &content.state}) {
+        detail::put(bytes, std::uint64_t(part->size()));
+        bytes += *part;
+    }
     detail::put(bytes, checksum_of(bytes));
     bytes.append(detail::checkpoint_end, 8);
     return bytes;
@@ -100,7 +103,7 @@ inline checkpoint_content unpack_checkpoint(std::string_view bytes, std::string 
     if (rest.substr(0, 8) != std::string_view(detail::checkpoint_magic, 8)) refuse_file("it is not a checkpoint of Lacuna");
     rest.remove_prefix(8);
     std::uint32_t order = 0, format = 0, version[3] = {0, 0, 0}, name_length = 0;
-    std::uint64_t state_length = 0, sum = 0;
+    std::uint64_t length = 0, sum = 0;
     auto const need = [&](bool there) {
         if (!there) refuse_file("it is truncated");
     };
@@ -122,9 +125,11 @@ inline checkpoint_content unpack_checkpoint(std::string_view bytes, std::string 
     need(name_length <= rest.size());
     content.model = rest.substr(0, name_length);
     rest.remove_prefix(name_length);
-    need(detail::take(rest, content.settings) && detail::take(rest, state_length) && state_length <= rest.size());
-    content.state = rest.substr(0, std::size_t(state_length));
-    rest.remove_prefix(std::size_t(state_length));
+    for (std::string* part : {&content.told, &content.given, &content.state}) {
+        need(detail::take(rest, length) && length <= rest.size());
+        *part = rest.substr(0, std::size_t(length));
+        rest.remove_prefix(std::size_t(length));
+    }
     need(detail::take(rest, sum) && rest.size() >= 8);
     if (rest != std::string_view(detail::checkpoint_end, 8)) refuse_file("it does not end as it should: it is corrupted");
     if (sum != checksum_of(bytes.substr(0, bytes.size() - 16)))

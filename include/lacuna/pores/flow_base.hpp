@@ -48,6 +48,7 @@ public:
         if (pore >= network_.pores()) refuse("pore", double(pore), "a pore of the network");
         parameters_.require_pressure("pressure of pore " + std::to_string(pore), double(pressure));
         network_.pressure[pore] = pressure;
+        told_ = true;
     }
     /// Changes what a source prescribes from the next step on: Pa, or m^3/s.
     /// \throws std::invalid_argument for a source that is not there, a value not finite, a pressure below the minimum.
@@ -60,10 +61,14 @@ public:
         else
             require_finite(name, value);
         source.value = value;
+        told_ = true;
         if (source.kind == flow_source_kind::rate) return;
         for (std::size_t d = 0; d < network_.drained_throats; ++d)
             if (network_.drained_source[d] == std::int32_t(number)) network_.drained_pressure[d] = Real(value);
     }
+
+    /// Whether set_pressure() or set_source() was called.
+    bool told() const noexcept { return told_; }
 
     /// New pore volumes. The volume change that the next step sees is that since the last one. step() does it itself.
     void refresh_geometry(points_view<Real, Dim> points, Real const* radii) {
@@ -292,6 +297,7 @@ protected:
 
     parameters parameters_;
     Real thickness_;
+    bool told_ = false;
     network_type network_;
     flow_ledger<Real> ledger_;
     pore_feed<Real> feed_;

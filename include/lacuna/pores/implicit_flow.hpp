@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include <lacuna/core/aggregate.hpp>
 #include <lacuna/core/error.hpp>
 #include <lacuna/core/points.hpp>
 #include <lacuna/core/records.hpp>
@@ -42,9 +43,12 @@ struct implicit_flow_parameters : flow_parameters<Aperture> {
         if (!(solver_tolerance > 0 && solver_tolerance < 1))
             refuse(name + ".solver_tolerance", solver_tolerance, "> 0 and < 1");
     }
-    template <class Archive>
-    void serialize(Archive& ar) {
-        ar(static_cast<flow_parameters<Aperture>&>(*this), factorisation_tolerance, solver_tolerance);
+    /// Its members, by name; see core/aggregate.hpp.
+    template <class Visit>
+    void for_each_named(Visit const& visit) {
+        for_each_named_member(static_cast<flow_parameters<Aperture>&>(*this), visit);
+        visit("factorisation_tolerance", factorisation_tolerance);
+        visit("solver_tolerance", solver_tolerance);
     }
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <cstdlib>
 #include <memory>
@@ -15,6 +16,7 @@
 #include <cxxabi.h>
 #endif
 
+#include <lacuna/core/difference.hpp>
 #include <lacuna/observe/checkpoint_file.hpp>
 #include <lacuna/observe/observer.hpp>
 #include <lacuna/observe/state_archive.hpp>
@@ -23,7 +25,12 @@
 /// \file
 /// Checkpoints: the complete state of a simulation and of observers in a file, and back to the same bits.
 ///
-/// To resume, build the simulation as it was built before (packing, parameters, pores), then load_checkpoint().
+/// To resume, build the simulation as it was built before (packing, parameters, pores), then load_checkpoint(). What was
+/// given is compared: settings, particles, bonds, pores, and the calls that were made before the first step (velocities,
+/// fixed axes, loads, rigid plates, motions of walls, pressures and sources of the fluid), each kind of them by what
+/// comes of it. Kinds of calls that were not made again are the checkpoint's. What is called after load_checkpoint()
+/// holds from there on: a load given with a ramp starts at the one that acts then. A simulation that has stepped goes back,
+/// or on, to the saved state: what was called since its first step is undone with it.
 
 namespace lacuna {
 
@@ -41,23 +48,66 @@ std::string type_text() {
     return name;
 }
 
-/// All that was given to a simulation and never changes: its settings but for those without effect on results, its
-/// particles' numbering and properties, the shape of its pores. With remeshing that shape is part of the state.
+/// What was given to a simulation and never changes.
 template <class Model>
-std::uint64_t settings_hash(simulation<Model> const& sim) {
-    state_writer bytes;
-    auto settings = sim.settings();
-    settings.threads = 1;
-    settings.keep_pair_forces = true;
-    settings.guards = {};
-    bytes(settings);
-    auto const& store = sim.particles();
-    for (std::size_t k = 0; k < store.size(); ++k)
-        bytes(store.id(k), store.radius(k), store.mass(k), store.moment_of_inertia(k), store.material(k));
-    for (auto const& bond : sim.pairs().bond_records()) bytes(bond.particles);
-    if constexpr (has_fluid<Model>)
-        if (sim.filled() && settings.remeshing.rule == remesh_rule::never) archive_shape(bytes, sim.flow().network());
-    return checksum_of(bytes.bytes());
+struct given_values {
+    struct particle_list {
+        std::vector<typename Model::real> radius, mass;
+        std::vector<int> material;
+    };
+    simulation_parameters<Model> settings;
+    particle_list particles; ///< by id
+    std::vector<std::array<std::int32_t, 2>> bonds;
+    std::uint64_t numbering = 0; ///< hash of the order in which particles are stored
+    set_up_record set_up;
+
+    given_values() = default;
+    explicit given_values(simulation<Model> const& sim) : settings(sim.settings()), set_up(sim.set_up_so_far()) {
+        // Without effect on results.
+        settings.threads = 1;
+        settings.keep_pair_forces = true;
+        settings.guards = {};
+        auto const& store = sim.particles();
+        set_up_hash order;
+        for (std::size_t id = 0; id < store.size(); ++id) {
+            auto const k = std::size_t(store.internal(id));
+            particles.radius.push_back(store.radius(k));
+            particles.mass.push_back(store.mass(k));
+            particles.material.push_back(store.material(k));
+            order.add(k);
+        }
+        numbering = order.value();
+        for (auto const& bond : sim.pairs().bond_records()) bonds.push_back({bond.particles[0], bond.particles[1]});
+    }
+    template <class Archive>
+    void serialize(Archive& ar) {
+        ar(settings, particles, bonds, numbering, set_up);
+    }
+
+    /// In what a checkpoint differs from this; empty: in nothing that steps leave as it is.
+    std::string differs(given_values const& saved) const {
+        auto const told = [](char const* what, difference const& d) {
+            return "it was made with other " + std::string(what) + ": " + d.path + " = " + d.first + ", here " + d.second;
+        };
+        if (auto const d = first_difference(saved.settings, settings, "")) return told("settings", *d);
+        if (auto const d = first_difference(saved.particles, particles, "particles")) return told("particles", *d);
+        if (auto const d = first_difference(saved.bonds, bonds, "bonds")) return told("bonds", *d);
+        if (saved.set_up.places != set_up.places) return "it was made with particles at other places";
+        if (saved.numbering != numbering) return "it was written by a version that numbers particles in another way";
+        if (saved.set_up.pores != set_up.pores) return "it was made with other pores";
+        if (saved.set_up.fluid != set_up.fluid) return "its pores were filled with other pressures or sources";
+        for (std::size_t kind = 0; kind < set_up_kinds; ++kind)
+            if (set_up.was_called(lacuna::set_up(kind)) && saved.set_up.result[kind] != set_up.result[kind])
+                return "it was made with other " + std::string(set_up_names[kind]) +
+                       " than were given before load_checkpoint(): give these after it, from there on they hold";
+        return {};
+    }
+};
+
+/// The types of observers, to be compared.
+template <class... Observers>
+std::vector<std::string> observer_texts() {
+    return {type_text<Observers>()...};
 }
 
 template <class Model>
@@ -69,9 +119,13 @@ std::string model_text() {
            type_text<typename Model::integrator>() + ", packs of " + std::to_string(native_width<real>);
 }
 
+} // namespace detail
+
+/// What save_checkpoint() writes.
 template <class Model, class... Observers>
 checkpoint_content checkpoint_of(simulation<Model> const& sim, Observers const&... observers) {
-    state_writer state;
+    state_writer given, state;
+    given(detail::given_values<Model>(sim), detail::observer_texts<Observers...>());
     state(sim);
     std::vector<std::string> accumulated;
     [[maybe_unused]] auto const keep = [&](auto const& observer) {
@@ -81,17 +135,32 @@ checkpoint_content checkpoint_of(simulation<Model> const& sim, Observers const&.
     };
     (keep(observers), ...);
     state(accumulated);
-    return {model_text<Model>(), settings_hash(sim), state.bytes()};
+    return {detail::model_text<Model>(), given.bytes(), state.bytes()};
 }
 
-/// \throws checkpoint_error
+/// What load_checkpoint() does with what it has read.
+/// \param name of the file, for messages \throws checkpoint_error
 template <class Model, class... Observers>
 void resume_from(checkpoint_content const& content, std::string const& name, simulation<Model>& sim,
                  Observers&... observers) {
     auto const refuse_file = [&](std::string const& why) { throw checkpoint_error("checkpoint " + name + ": " + why); };
-    if (content.model != model_text<Model>())
-        refuse_file("it is of another model: " + content.model + "; this is " + model_text<Model>());
-    if (content.settings != settings_hash(sim)) refuse_file("it was made with other settings, particles or pores");
+    if (content.model != detail::model_text<Model>())
+        refuse_file("it is of another model: " + content.model + "; this is " + detail::model_text<Model>());
+    detail::given_values<Model> const ours(sim);
+    detail::given_values<Model> saved = ours;
+    std::vector<std::string> watched;
+    try {
+        state_reader given(content.given);
+        given(saved, watched);
+        require_state(given.left() == 0, "it is longer than it should be");
+    } catch (std::exception const& e) {
+        refuse_file(e.what());
+    }
+    if (std::string const why = ours.differs(saved); !why.empty()) refuse_file(why);
+    if (auto const d = first_difference(watched, detail::observer_texts<Observers...>(), ""))
+        refuse_file(watched.size() == sizeof...(Observers)
+                        ? "it was made with other observers: " + d->first + ", here " + d->second
+                        : "it was made with another number of observers, " + std::to_string(watched.size()));
     // Read into copies: whatever is wrong with the file, nothing has changed.
     auto copy = std::make_unique<simulation<Model>>(sim);
     std::tuple<Observers...> copies(observers...);
@@ -114,11 +183,10 @@ void resume_from(checkpoint_content const& content, std::string const& name, sim
     } catch (std::exception const& e) {
         refuse_file(e.what());
     }
+    copy->take_set_up(saved.set_up);
     sim = std::move(*copy);
     std::tie(observers...) = std::move(copies);
 }
-
-} // namespace detail
 
 /// Writes the complete state between two steps: particles, bonds, contacts and their histories, pores, loads, energies.
 /// \param observers whose accumulators belong to the run: copyable, with a `serialize` member, as crack_record has;
@@ -126,16 +194,17 @@ void resume_from(checkpoint_content const& content, std::string const& name, sim
 /// \throws std::runtime_error when the file cannot be written; the file that was there is untouched then
 template <class Model, class... Observers>
 void save_checkpoint(std::string const& path, simulation<Model> const& sim, Observers const&... observers) {
-    write_checkpoint(path, detail::checkpoint_of(sim, observers...));
+    write_checkpoint(path, checkpoint_of(sim, observers...));
 }
 
 /// Puts a simulation that was built as the saved one was, and observers, into the saved state: what follows has the
 /// bits that it would have had.
 /// \throws checkpoint_error, and changes nothing, for a file that cannot be read, is no checkpoint, is truncated,
-///         corrupted or of a newer version, or is of another model, other settings, or other observers
+///         corrupted or of a newer version; is of another model, other settings, particles, pores or observers; or was
+///         made with other calls than have been made before the first step of `sim`. The message says in what it differs
 template <class Model, class... Observers>
 void load_checkpoint(std::string const& path, simulation<Model>& sim, Observers&... observers) {
-    detail::resume_from(read_checkpoint(path), path, sim, observers...);
+    resume_from(read_checkpoint(path), path, sim, observers...);
 }
 
 /// Hash of the complete state: two simulations of one model and the same settings that have the same hash go on alike.

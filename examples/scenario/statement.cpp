@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "statement.hpp"
+
+#include "checkpoints.hpp"
+#include "key_table.hpp"
+
+#ifdef LACUNA_RUN_CHECKPOINTS
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <exception>
+#include <optional>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <lacuna/core/difference.hpp>
+#include <lacuna/observe/state_archive.hpp>
+
+namespace lacuna_run {
+
+std::string word_of(contact_law law) {
+    return std::array{"\"none\"", "\"frictional_spring\"", "\"hertz_mindlin\""}[std::size_t(law)];
+}
+std::string word_of(bond_law law) {
+    return std::array{"\"none\"", "\"brittle_spring\"", "\"parallel_bond\""}[std::size_t(law)];
+}
+
+namespace {
+
+/// A scenario in one of the ways in which it can be written.
+struct statement {
+    std::uint64_t keys = 0; ///< hash of all that there are
+    scenario said;
+    std::vector<std::uint8_t> held; ///< of each particle: bits x, y, z, r
+};
+
+std::uint64_t hash_of_keys() {
+    lacuna::checksum sum;
+    for (key const& row : keys) sum.add(row.path, std::strlen(row.path) + 1);
+    return sum.value();
+}
+
+std::vector<std::uint8_t> held_axes(particles const& p) {
+    std::vector<std::uint8_t> held(p.size(), 0);
+    for (fixed const& f : p.fix)
+        for (auto const id : f.particles)
+            held[std::size_t(id)] = std::uint8_t(held[std::size_t(id)] | (f.x * 1 + f.y * 2 + f.z * 4 + f.rotation * 8));
+    return held;
+}
+
+/// What is the same for all is kept once.
+template <class Visit>
+void for_each_list(statement& s, Visit const& visit) {
+    std::size_t const n = s.said.bodies.size();
+    visit(s.said.bodies.velocity, n);
+    visit(s.said.bodies.spin, n);
+    visit(s.said.bodies.radius, n);
+    visit(s.said.bodies.material, n);
+    visit(s.said.joints.values, s.said.joints.pairs.size());
+    visit(s.held, n);
+}
+template <class T>
+void shorten(std::vector<T>& list) {
+    for (T const& value : list)
+        if (lacuna::first_difference(list.front(), value, "")) return;
+    if (list.size() > 1) list.resize(1);
+}
+
+/// Bonds have values of their own, or none.
+bool has_values(scenario const& s) { return !s.joints.values.empty(); }
+
+std::string held_text(std::uint8_t held) {
+    std::string text = "\"";
+    for (int k = 0; k < 4; ++k)
+        if (held >> k & 1) text += "xyzr"[k];
+    return text + "\"";
+}
+std::string names_text(std::vector<material> const& materials) {
+    std::string text;
+    for (material const& m : materials) text += (text.empty() ? "" : ", ") + m.name;
+    return text;
+}
+
+/// Where a member of scenario has another name than its key. Whole parts of a path; the first entry that fits.
+struct renamed {
+    std::string_view member, key;
+};
+constexpr renamed renames[] = {
+    {"simulation.single_precision", "simulation.real"}, {"simulation.spheres", "simulation.mass"},
+    {"simulation.contact", "simulation.contact_law"},   {"simulation.bond", "simulation.bond_law"},
+    {"simulation.velocity_verlet", "simulation.integrator"},
+    {"simulation.local_damping", "simulation.damping.local"},
+    {"simulation.mass_damping", "simulation.damping.mass"},
+    {"simulation.viscous_damping", "simulation.damping.viscous"},
+    {"bodies", "particles"},
+    {"joints.pairs", "bonds.pairs"},
+    {"water.constant_aperture", "fluid.aperture.law"},
+    {"water.half_force", "fluid.aperture.F0"},
+    {"water.gap_factor", "fluid.aperture.gap_multiplier"},
+    {"water.implicit", "fluid.solver"},
+    {"water.drained", "fluid.boundary"},
+    {"water.pores", "fluid.network.pores"},
+    {"water.throats", "fluid.network.throats"},
+    {"water", "fluid"},
+};
+/// What a flag stands for: false, true.
+struct flag_words {
+    std::string_view key, no, yes;
+};
+constexpr flag_words words[] = {
+    {"simulation.real", "\"double\"", "\"float\""},
+    {"simulation.mass", "\"disc\"", "\"sphere\""},
+    {"simulation.integrator", "\"symplectic_euler\"", "\"velocity_verlet\""},
+    {"fluid.aperture.law", "\"contact_force\"", "\"constant\""},
+    {"fluid.solver", "\"explicit\"", "\"implicit\""},
+    {"fluid.boundary", "\"sealed\"", "\"drained\""},
+};
+
+void replace(std::string& text, std::string_view old, std::string_view fresh) {
+    if (auto const at = text.find(old); at != std::string::npos) text.replace(at, old.size(), fresh);
+}
+
+/// A difference with the keys' names and words for members and numbers.
+lacuna::difference as_keys(lacuna::difference d, scenario const& now) {
+    std::string& path = d.path;
+    if (path.rfind("walls[", 0) == 0) replace(path, "].place", "].point");
+    if (path.rfind("materials[", 0) == 0) {
+        auto const end = path.find(']');
+        auto const number = std::size_t(std::stoul(path.substr(10, end - 10)));
+        path = "materials." + now.materials.at(number).name + path.substr(end + 1);
+    }
+    if (path.rfind("joints.values[", 0) == 0) { // joints.values[3].shear_force: bonds.shear_force[3]
+        auto const end = path.find(']');
+        path = "bonds" + path.substr(end + 1) + path.substr(13, end - 12);
+    }
+    bool const constant = now.water && now.water->constant_aperture;
+    if (path == "water.aperture") path = constant ? "fluid.aperture.value" : "fluid.aperture.a0";
+    for (auto const& [member, key] : renames) {
+        char const next = path.size() > member.size() ? path[member.size()] : '.';
+        if (path.compare(0, member.size(), member) != 0 || (next != '.' && next != '[')) continue;
+        path = std::string(key) + path.substr(member.size());
+        break;
+    }
+    replace(path, ".where.", ".");
+    for (auto const& one : words)
+        if (path == one.key)
+            for (std::string* text : {&d.first, &d.second}) *text = *text == "true" ? one.yes : one.no;
+    for (std::string* text : {&d.first, &d.second}) {
+        if (path.rfind("particles.material[", 0) == 0)
+            *text = "\"" + now.materials.at(std::size_t(std::stoul(*text))).name + "\"";
+        if ((path == "simulation.time_step" || path == "fluid.time_step") && *text == "0") *text = "\"auto\"";
+    }
+    return d;
+}
+
+/// Without what may change.
+void forget_changeable(scenario& s) {
+    s.simulation.steps.reset();
+    s.simulation.end_time.reset();
+    s.simulation.threads = 1;
+    s.simulation.guards = {};
+    s.loads.clear();
+    s.probes.clear();
+    s.out = {};
+    s.bodies.fix.clear(); // compared as axes held
+}
+
+std::optional<lacuna::difference> first_difference(scenario before, scenario now,
+                                                   std::vector<std::uint8_t> const& held_before) {
+    auto const held_now = held_axes(now.bodies);
+    auto const names_before = names_text(before.materials), names_now = names_text(now.materials);
+    if (names_before != names_now) return lacuna::difference{"materials", names_before, names_now};
+    forget_changeable(before);
+    forget_changeable(now);
+    std::string_view const none = "left out";
+    // First what bonds are there, then what values they have.
+    if (auto d = lacuna::first_difference(before.joints.pairs, now.joints.pairs, "joints.pairs", none))
+        return as_keys(*d, now);
+    for (scenario* one : {&before, &now})
+        if (!has_values(*one)) one->joints.values.resize(one->joints.pairs.size());
+    if (auto d = lacuna::first_difference(before, now, "", none)) return as_keys(*d, now);
+    for (std::size_t k = 0; k < held_now.size() && k < held_before.size(); ++k)
+        if (held_before[k] != held_now[k])
+            return lacuna::difference{"particles.fix of particle " + std::to_string(k), held_text(held_before[k]),
+                                      held_text(held_now[k])};
+    return {};
+}
+
+} // namespace
+
+std::string statement_of(scenario const& s) {
+    statement one{hash_of_keys(), s, held_axes(s.bodies)};
+    one.said.bodies.fix.clear();
+    for_each_list(one, [](auto& list, std::size_t) { shorten(list); });
+    lacuna::state_writer bytes;
+    bytes(one);
+    return bytes.bytes();
+}
+
+scenario earlier_scenario(std::string const& path, std::string const& told, scenario const& now) {
+    statement before;
+    auto const refuse_file = [&](std::string const& why) { throw refusal("checkpoint " + path + ": " + why); };
+    try {
+        std::uint64_t keys_then = 0;
+        if (!told.empty()) lacuna::state_reader{told}(keys_then);
+        if (keys_then != hash_of_keys()) refuse_file("it is not of a scenario of this version of lacuna-run");
+        lacuna::state_reader bytes(told);
+        bytes(before);
+        lacuna::require_state(bytes.left() == 0, "it is longer than it should be");
+    } catch (refusal const&) {
+        throw;
+    } catch (std::exception const& bad) {
+        refuse_file(bad.what());
+    }
+    for_each_list(before, [](auto& list, std::size_t count) {
+        if (list.size() == 1) list.resize(count, typename std::remove_cvref_t<decltype(list)>::value_type(list[0]));
+    });
+    // `fix` has been read as the axes that are held.
+    for (std::size_t k = 0; k < before.held.size(); ++k) {
+        auto const held = before.held[k];
+        before.said.bodies.fix.push_back(
+            {{std::int32_t(k)}, (held & 1) != 0, (held & 2) != 0, (held & 4) != 0, (held & 8) != 0});
+    }
+    if (auto const d = first_difference(before.said, now, before.held))
+        refuse_file("it was made with " + d->path + " = " + d->first + ", the deck says " + d->second);
+    return before.said;
+}
+
+} // namespace lacuna_run
+
+#else
+
+namespace lacuna_run {
+
+std::string statement_of(scenario const&) { return {}; }
+scenario earlier_scenario(std::string const&, std::string const&, scenario const& now) { return now; }
+
+} // namespace lacuna_run
+
+#endif
