@@ -155,8 +155,8 @@ void connect(pore_mesh<Dim>& mesh) {
         if (a.particles != b.particles) continue;
         if (a.odd == b.odd) {
             std::string who;
-            for (auto const i : a.particles) who.append(who.empty() ? "" : "-").append(std::to_string(i));
-            throw std::runtime_error("triangulation: two simplices on the same side of " + who);
+            for (auto const i : a.particles) who.append(who.empty() ? "" : ", ").append(std::to_string(i));
+            throw std::runtime_error("mesh: two simplices overlap: both lie on the same side of particles " + who);
         }
         mesh.neighbours[std::size_t(a.simplex)][std::size_t(a.corner)] = b.simplex;
         mesh.neighbours[std::size_t(b.simplex)][std::size_t(b.corner)] = a.simplex;

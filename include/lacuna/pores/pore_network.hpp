@@ -146,6 +146,26 @@ void finish(pore_network<Real, Dim>& net, std::vector<throat_record<Real, Dim>> 
 
 } // namespace detail
 
+namespace detail {
+
+/// Names the corners of a simplex that has no size.
+template <std::size_t Corners, class Real, int Dim>
+[[noreturn]] void refuse_flat(std::array<std::int32_t, Corners> const& corners, points_view<Real, Dim> points,
+                              double size) {
+    std::string who;
+    for (auto const i : corners) {
+        who.append(who.empty() ? "" : ", ").append(std::to_string(i)).append(" at (");
+        for (int axis = 0; axis < Dim; ++axis)
+            who.append(axis == 0 ? "" : ", ").append(to_text(double(points(std::size_t(i), axis))));
+        who.append(")");
+    }
+    refuse("size of the pore between the particles " + who + " m", size,
+           std::string("> 0: in their order the corners of a mesh turn counter-clockwise, and are not on a ") +
+               (Dim == 2 ? "line" : "plane"));
+}
+
+} // namespace detail
+
 /// The pores and throats of a body. In the plane each triangle is a pore, each edge a throat of length r_i + r_j; in
 /// space each tetrahedron is a pore, each facet a throat, as long as the mean of r_i + r_j over its three edges. Volumes
 /// and apertures are left at 0 for the flow solver to fill in.
@@ -154,8 +174,8 @@ void finish(pore_network<Real, Dim>& net, std::vector<throat_record<Real, Dim>> 
 /// \param points centres of all particles, m; \param radii theirs, m, > 0 at every corner of the mesh
 /// \param boundary callable boundary_throat -> throat_boundary, asked once for every throat on the boundary; what its
 ///        member sources() returns, if it has one, becomes the network's `sources` (see flow_boundaries())
-/// \throws std::invalid_argument for a corner that is no particle, a radius or a pressure out of range, a source that
-///         acts on no throat.
+/// \throws std::invalid_argument for a corner that is no particle, a simplex without size, a radius or a pressure out of
+///         range, a source that acts on no throat.
 template <class Real, int Dim, class Boundary = all_sealed>
 pore_network<Real, Dim> make_pore_network(pore_mesh<Dim> const& mesh, points_view<Real, Dim> points, Real const* radii,
                                           Boundary const& boundary = {}) {
@@ -190,6 +210,7 @@ pore_network<Real, Dim> make_pore_network(pore_mesh<Dim> const& mesh, points_vie
     for (std::size_t t = 0; t < mesh.size(); ++t) {
         auto const& corners = mesh.simplices[t];
         net.size[t] = detail::reference_size(corners, points, radii);
+        if (!(net.size[t] > Real(0))) detail::refuse_flat(corners, points, double(net.size[t]));
         for (std::size_t c = 0; c <= Dim; ++c) {
             if (!has_throat(t, c)) continue;
             auto const other = mesh.neighbours[t][c];

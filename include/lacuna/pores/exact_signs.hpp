@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+/// \file
+/// Signs of the determinants that decide on a triangulation, without rounding errors: in plain numbers where their error
+/// bound says that the sign is sure, else by sums of numbers that do not overlap (J. R. Shewchuk, Adaptive precision
+/// floating-point arithmetic and fast robust geometric predicates, Discrete Comput. Geom. 18 (1997) 305).
+
+namespace lacuna::detail {
+
+/// A number as the sum of doubles that do not overlap, the smallest first: sums and products are exact.
+class exact_number {
+public:
+    exact_number() = default;
+    explicit exact_number(double a) {
+        if (a != 0) part_.push_back(a);
+    }
+    static exact_number difference(double a, double b) { return exact_number(a) + exact_number(-b); }
+    static exact_number square(double a) { return exact_number(a) * exact_number(a); }
+
+    friend exact_number operator+(exact_number const& a, exact_number const& b) {
+        if (a.part_.empty()) return b;
+        if (b.part_.empty()) return a;
+        std::vector<double> all(a.part_.size() + b.part_.size());
+        std::merge(a.part_.begin(), a.part_.end(), b.part_.begin(), b.part_.end(), all.begin(),
+                   [](double x, double y) { return std::fabs(x) < std::fabs(y); });
+        exact_number sum;
+        double carry = all[0];
+        for (std::size_t k = 1; k < all.size(); ++k) {
+            auto const [high, low] = two_sum(carry, all[k]);
+            sum.add(low);
+            carry = high;
+        }
+        sum.add(carry);
+        return sum;
+    }
+    friend exact_number operator*(exact_number const& a, exact_number const& b) {
+        exact_number product;
+        for (double const factor : b.part_) {
+            exact_number scaled;
+            double carry = 0;
+            for (double const part : a.part_) {
+                double const high = part * factor, low = std::fma(part, factor, -high);
+                auto const [sum, rest] = two_sum(carry, low);
+                scaled.add(rest);
+                auto const [next, rest_of_sum] = two_sum(high, sum);
+                scaled.add(rest_of_sum);
+                carry = next;
+            }
+            scaled.add(carry);
+            product = product + scaled;
+        }
+        return product;
+    }
+    exact_number operator-() const {
+        exact_number other(*this);
+        for (double& part : other.part_) part = -part;
+        return other;
+    }
+    friend exact_number operator-(exact_number const& a, exact_number const& b) { return a + -b; }
+
+    /// Its value, to a relative error of a few roundings; of the right sign.
+    double value() const noexcept {
+        double sum = 0;
+        for (double const part : part_) sum += part;
+        return sum;
+    }
+
+private:
+    static std::array<double, 2> two_sum(double a, double b) noexcept {
+        double const sum = a + b, of_b = sum - a;
+        return {sum, (a - (sum - of_b)) + (b - of_b)};
+    }
+    void add(double part) {
+        if (part != 0) part_.push_back(part);
+    }
+    std::vector<double> part_;
+};
+
+/// Determinant of a small square matrix, by its last column.
+template <class T, std::size_t N>
+T determinant(std::array<std::array<T, N>, N> const& m) {
+    if constexpr (N == 1) {
+        return m[0][0];
+    } else if constexpr (N == 2) {
+        return m[0][0] * m[1][1] - m[0][1] * m[1][0];
+    } else {
+        T sum{};
+        for (std::size_t row = 0; row < N; ++row) {
+            std::array<std::array<T, N - 1>, N - 1> minor;
+            for (std::size_t r = 0; r + 1 < N; ++r)
+                for (std::size_t c = 0; c + 1 < N; ++c) minor[r][c] = m[r < row ? r : r + 1][c];
+            T const term = m[row][N - 1] * determinant(minor);
+            sum = (row + N - 1) % 2 == 0 ? sum + term : sum - term;
+        }
+        return sum;
+    }
+}
+
+/// Particles of a triangulation as the signs see them: their places, scaled by a power of two such that no number is
+/// above 1, and their weights r^2 + shift.
+template <int Dim>
+struct weighted_sites {
+    std::vector<std::array<double, std::size_t(Dim)>> x;
+    std::vector<double> radius, shift;
+    double scale = 1;  ///< 1 / m
+    double reach = 0; ///< what counts as near, here; see scaled_particles
+
+    /// Simplices longer than this have a particle far from the others: they may be thin and yet more than rounding.
+    static double longest_wall(double reach) noexcept { return (Dim == 2 ? 100 : 10) * reach; }
+
+    std::size_t size() const noexcept { return x.size(); }
+    double weight(std::size_t k) const noexcept { return radius[k] * radius[k] + shift[k]; }
+};
+
+/// How a site lies with respect to the orthogonal sphere of a simplex.
+struct power_reading {
+    double inside; ///< > 0: it breaks the simplex
+    double share;  ///< by how much weights would have to change for it not to: inside over this
+    double error;  ///< of `inside`
+    double nearest; ///< smallest squared distance of two of them
+};
+
+/// Signs over sites; a simplex is an array of Dim + 1 of their numbers.
+template <int Dim>
+class exact_signs {
+public:
+    static constexpr auto dim = std::size_t(Dim);
+    using simplex = std::array<std::int32_t, dim + 1>;
+
+    explicit exact_signs(weighted_sites<Dim> const& sites) : at_(sites) {}
+
+    weighted_sites<Dim> const& sites() const noexcept { return at_; }
+
+    /// Of the sign of Dim! times the size of a simplex; 0 when its corners lie on a line (in space: in a plane).
+    double orientation(simplex const& s) const {
+        std::array<std::array<double, dim>, dim> m, largest;
+        for (std::size_t k = 0; k < dim; ++k)
+            for (std::size_t a = 0; a < dim; ++a) {
+                m[k][a] = place(s[k + 1], a) - place(s[0], a);
+                largest[k][a] = std::fabs(m[k][a]);
+            }
+        double const size = determinant(m);
+        if (std::fabs(size) > 1e-14 * permanent(largest)) return size;
+        std::array<std::array<exact_number, dim>, dim> exact;
+        for (std::size_t k = 0; k < dim; ++k)
+            for (std::size_t a = 0; a < dim; ++a)
+                exact[k][a] = exact_number::difference(place(s[k + 1], a), place(s[0], a));
+        return determinant(exact).value();
+    }
+
+    /// Of the sign of what is left of the simplex's power when site p is within its orthogonal sphere: > 0 when p lies
+    /// below the simplex's plane in (x, |x|^2 - weight), < 0 above, 0 on it. For a simplex of positive orientation.
+    double inside(simplex const& s, std::int32_t p) const {
+        auto const r = read(s, p);
+        return std::fabs(r.inside) > r.error ? r.inside : exact_inside(s, p);
+    }
+
+    /// The same in plain numbers, with what is needed to judge them.
+    power_reading read(simplex const& s, std::int32_t p) const noexcept {
+        std::array<std::array<double, dim>, dim + 1> u;
+        std::array<double, dim + 1> lift, bound;
+        power_reading r{0, 0, 0, 1e300};
+        double const own = at_.weight(std::size_t(p));
+        for (std::size_t k = 0; k <= dim; ++k) {
+            double squared = 0;
+            for (std::size_t a = 0; a < dim; ++a) {
+                u[k][a] = place(s[k], a) - place(p, a);
+                squared += u[k][a] * u[k][a];
+            }
+            double const weight = at_.weight(std::size_t(s[k]));
+            lift[k] = squared - weight + own;
+            bound[k] = squared + std::fabs(weight) + std::fabs(own);
+            r.nearest = std::min(r.nearest, squared);
+            for (std::size_t j = 0; j < k; ++j) {
+                double apart = 0;
+                for (std::size_t a = 0; a < dim; ++a) apart += (u[k][a] - u[j][a]) * (u[k][a] - u[j][a]);
+                r.nearest = std::min(r.nearest, apart);
+            }
+        }
+        double whole = 0;
+        for (std::size_t k = 0; k <= dim; ++k) {
+            std::array<std::array<double, dim>, dim> m, largest;
+            for (std::size_t j = 0; j < dim; ++j)
+                for (std::size_t a = 0; a < dim; ++a) {
+                    m[j][a] = u[j < k ? j : j + 1][a];
+                    largest[j][a] = std::fabs(m[j][a]);
+                }
+            double const size = determinant(m), signed_size = k % 2 == 0 ? size : -size;
+            r.inside += signed_size * lift[k];
+            r.error += 4e-14 * bound[k] * permanent(largest);
+            r.share += std::fabs(size);
+            whole += signed_size;
+        }
+        r.share += std::fabs(whole);
+        return r;
+    }
+
+    double exact_inside(simplex const& s, std::int32_t p) const {
+        std::array<std::array<exact_number, dim + 1>, dim + 1> m;
+        auto const weight = [&](std::int32_t k) {
+            return exact_number::square(at_.radius[std::size_t(k)]) + exact_number(at_.shift[std::size_t(k)]);
+        };
+        auto const own = weight(p);
+        for (std::size_t k = 0; k <= dim; ++k) {
+            m[k][dim] = own - weight(s[k]);
+            for (std::size_t a = 0; a < dim; ++a) {
+                m[k][a] = exact_number::difference(place(s[k], a), place(p, a));
+                m[k][dim] = m[k][dim] + m[k][a] * m[k][a];
+            }
+        }
+        // Expanded by the last column as read() does it: the sign of its first term is (-1)^Dim.
+        double const value = determinant(m).value();
+        return Dim % 2 == 0 ? value : -value;
+    }
+
+private:
+    double place(std::int32_t k, std::size_t axis) const noexcept { return at_.x[std::size_t(k)][axis]; }
+    static double permanent(std::array<std::array<double, dim>, dim> const& m) noexcept {
+        if constexpr (Dim == 2)
+            return m[0][0] * m[1][1] + m[0][1] * m[1][0];
+        else
+            return m[0][0] * (m[1][1] * m[2][2] + m[1][2] * m[2][1]) +
+                   m[0][1] * (m[1][0] * m[2][2] + m[1][2] * m[2][0]) +
+                   m[0][2] * (m[1][0] * m[2][1] + m[1][1] * m[2][0]);
+    }
+    weighted_sites<Dim> const& at_;
+};
+
+} // namespace lacuna::detail

@@ -1,0 +1,421 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "catch.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <lacuna/pores/no_pores.hpp>
+#include <lacuna/pores/pore_network.hpp>
+#include <lacuna/pores/triangulation.hpp>
+
+using namespace lacuna;
+
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+double uniform(std::mt19937_64& engine) { return double(engine() >> 11) * 0x1p-53; }
+
+template <int Dim, class Real = double>
+struct body {
+    std::vector<vec<Real, Dim>> x;
+    std::vector<Real> r;
+
+    void add(vec<Real, Dim> const& at, Real radius = Real(0.5)) {
+        x.push_back(at);
+        r.push_back(radius);
+    }
+    void add(body const& other, vec<Real, Dim> const& at) {
+        for (std::size_t k = 0; k < other.x.size(); ++k) add(other.x[k] + at, other.r[k]);
+    }
+    pore_mesh<Dim> mesh() const { return regular_triangulation(view_points(x), r.data()); }
+    pore_mesh<Dim> pores(Real cutoff = Real(0)) const { return triangulate_body(view_points(x), r.data(), cutoff); }
+};
+
+/// A disc and its six neighbours: six triangles.
+template <class Real = double>
+body<2, Real> make_hexagon() {
+    body<2, Real> b;
+    b.add({0, 0});
+    for (int k = 0; k < 6; ++k) b.add({Real(std::cos(k * pi / 3)), Real(std::sin(k * pi / 3))});
+    return b;
+}
+/// Spheres of a cubic lattice, out of their places by up to a tenth of a radius.
+body<3> make_heap(int n) {
+    std::mt19937_64 engine(3);
+    body<3> b;
+    for (int i = 0; i < n; ++i)
+        for (int j = 0; j < n; ++j)
+            for (int k = 0; k < n; ++k)
+                b.add({i + 0.1 * uniform(engine), j + 0.1 * uniform(engine), k + 0.1 * uniform(engine)});
+    return b;
+}
+vec<double, 3> direction(int k) {
+    double const z = -0.9 + 0.17 * k, turn = 2.4 * k;
+    return {std::sqrt(1 - z * z) * std::cos(turn), std::sqrt(1 - z * z) * std::sin(turn), z};
+}
+
+using number = long double;
+
+template <std::size_t N>
+number determinant_of(std::array<std::array<number, N>, N> m) {
+    number product = 1;
+    for (std::size_t i = 0; i < N; ++i) {
+        std::size_t best = i;
+        for (std::size_t k = i; k < N; ++k)
+            if (std::fabs(m[k][i]) > std::fabs(m[best][i])) best = k;
+        if (m[best][i] == 0) return 0;
+        if (best != i) product = -product;
+        std::swap(m[i], m[best]);
+        product *= m[i][i];
+        for (std::size_t k = i + 1; k < N; ++k)
+            for (std::size_t c = N; c-- > i;) m[k][c] -= m[k][i] / m[i][i] * m[i][c];
+    }
+    return product;
+}
+
+/// All simplices whose orthogonal sphere no particle enters, by trying all: one dimension more, by Cramer's rule.
+template <int Dim>
+std::vector<std::array<std::int32_t, std::size_t(Dim) + 1>> try_all(body<Dim> const& b) {
+    constexpr auto dim = std::size_t(Dim);
+    using simplex = std::array<std::int32_t, dim + 1>;
+    auto const lifted = [&](std::int32_t i, std::int32_t from) {
+        std::array<number, dim + 1> row{};
+        for (std::size_t a = 0; a < dim; ++a) {
+            row[a] = number(b.x[std::size_t(i)][int(a)]) - number(b.x[std::size_t(from)][int(a)]);
+            row[dim] += row[a] * row[a];
+        }
+        row[dim] += number(b.r[std::size_t(from)]) * b.r[std::size_t(from)] - number(b.r[std::size_t(i)]) * b.r[std::size_t(i)];
+        return row;
+    };
+    std::vector<simplex> found;
+    auto const n = std::int32_t(b.x.size());
+    simplex s;
+    for (std::size_t c = 0; c <= dim; ++c) s[c] = std::int32_t(c);
+    for (;;) {
+        std::array<std::array<number, dim>, dim> flat;
+        for (std::size_t k = 0; k < dim; ++k)
+            for (std::size_t a = 0; a < dim; ++a) flat[k][a] = lifted(s[k + 1], s[0])[a];
+        number const size = determinant_of(flat);
+        bool empty = size != 0;
+        for (std::int32_t p = 0; p < n && empty; ++p) {
+            if (std::count(s.begin(), s.end(), p)) continue;
+            std::array<std::array<number, dim + 1>, dim + 1> m;
+            for (std::size_t k = 0; k < dim; ++k) m[k] = lifted(s[k + 1], s[0]);
+            m[dim] = lifted(p, s[0]);
+            // The height of p over the plane of the others has this sign.
+            empty = determinant_of(m) * size > 0;
+        }
+        if (empty) found.push_back(s);
+        std::size_t c = dim + 1;
+        while (c > 0 && s[c - 1] == n - std::int32_t(dim + 1 - (c - 1))) --c;
+        if (c == 0) return found;
+        ++s[c - 1];
+        for (; c <= dim; ++c) s[c] = s[c - 1] + 1;
+    }
+}
+template <int Dim>
+auto sorted_corners(pore_mesh<Dim> const& mesh) {
+    auto all = mesh.simplices;
+    for (auto& s : all) std::sort(s.begin(), s.end());
+    std::sort(all.begin(), all.end());
+    return all;
+}
+
+} // namespace
+
+TEST_CASE("one disc far away takes no pore from the others, in any direction") {
+    auto const near = make_hexagon();
+    auto const expected = near.pores().simplices;
+    REQUIRE(expected.size() == 6);
+    for (double const far : {20.0, 1e3, 1e5, 1e6, 3e6, 1e7, 2e7, 1e8, 1e9, 1e10, 1e12, 1e17, 1e30})
+        for (int k = 0; k < 36; ++k) {
+            auto b = near;
+            b.add({far * std::cos(0.1 + k * pi / 18), far * std::sin(0.1 + k * pi / 18)});
+            REQUIRE(b.pores().simplices == expected);
+            // The triangulation of all of them has, besides, one triangle for each side of the hexagon that the far disc sees.
+            auto const all = b.mesh().simplices;
+            REQUIRE(std::includes(all.begin(), all.end(), expected.begin(), expected.end()));
+            REQUIRE(all.size() == 9);
+        }
+}
+
+TEST_CASE("one sphere far away takes no pore from the others") {
+    auto const near = make_heap(3);
+    auto const expected = near.pores().simplices;
+    REQUIRE(expected.size() > 40);
+    for (double const far : {30.0, 1e2, 1e3, 1e4, 1e5, 1e7, 1e9, 1e15})
+        for (int k = 0; k < 11; ++k) {
+            auto b = near;
+            b.add(direction(k) * far);
+            REQUIRE(b.pores().simplices == expected);
+        }
+    // All of them: a tetrahedron, and one for each of its sides that the far sphere sees.
+    body<3> four;
+    four.add({1, 1, 1});
+    four.add({1, -1, -1});
+    four.add({-1, 1, -1});
+    four.add({-1, -1, 1});
+    for (double const far : {1e3, 1e5, 1e7, 1e9})
+        for (int k = 0; k < 11; ++k) {
+            auto b = four;
+            b.add(direction(k) * far);
+            std::size_t seen = 0;
+            for (auto const& corner : four.x) seen += dot(corner, direction(k)) < 0; // the side opposite it
+            REQUIRE(b.mesh().size() == 1 + seen);
+        }
+}
+
+TEST_CASE("several particles and bodies far from each other each have their pores") {
+    auto const hexagon = make_hexagon();
+    for (double const far : {40.0, 1e4, 1e8, 1e11}) {
+        body<2> b;
+        b.add({-3 * far, far});
+        b.add(hexagon, {0, 0});
+        b.add({far, 0.3 * far});
+        b.add({far, 0.3 * far + 1});
+        b.add(hexagon, {0.5 * far, -far});
+        b.add({-far, -2 * far});
+        auto const pores = b.pores();
+        REQUIRE(pores.size() == 12);
+        std::size_t corner = 0;
+        for (std::size_t t = 0; t < 12; ++t) {
+            REQUIRE(pores.simplices[t][0] == (t < 6 ? 1 : 10));
+            corner += std::size_t(std::count(pores.neighbours[t].begin(), pores.neighbours[t].end(), -1));
+        }
+        REQUIRE(corner == 12);
+    }
+}
+
+TEST_CASE("discs and spheres in single precision, one far away") {
+    auto b = make_hexagon<float>();
+    auto const expected = b.pores().simplices;
+    REQUIRE(expected.size() == 6);
+    for (float const far : {1e3f, 1e7f, 1e12f, 1e30f}) {
+        auto c = b;
+        c.add({far, -0.3f * far});
+        REQUIRE(c.pores().simplices == expected);
+    }
+}
+
+TEST_CASE("what lies in the middle of a ring, far from it, is a corner of its pores") {
+    // A ring of 126 touching discs; in its middle one disc, or a hexagon.
+    body<2> ring;
+    double const radius = 0.5 / std::sin(pi / 126);
+    for (int k = 0; k < 126; ++k)
+        ring.add({radius * std::cos(2 * pi * (k + 0.3) / 126), radius * std::sin(2 * pi * (k + 0.3) / 126)});
+    double const filled = 63 * radius * radius * std::sin(2 * pi / 126);
+    REQUIRE(ring.pores().size() == 124);
+
+    auto one = ring;
+    one.add({0.31, -0.17});
+    auto const pores = one.pores();
+    REQUIRE(pores.size() == 126);
+    for (auto const& s : pores.simplices) REQUIRE(std::count(s.begin(), s.end(), 126) == 1);
+    REQUIRE_THAT(mesh_size(pores, view_points(one.x)), WithinRel(filled, 1e-12));
+
+    auto many = ring;
+    many.add(make_hexagon(), {0.31, -0.17});
+    many.add({1e9, 1e9});
+    auto const all = many.pores();
+    REQUIRE_THAT(mesh_size(all, view_points(many.x)), WithinRel(filled, 1e-12));
+    // Euler: 2 (particles) - 2 - (on the boundary).
+    REQUIRE(all.size() == 2 * 133 - 2 - 126);
+}
+
+TEST_CASE("radii from 1 to 1e-4, small ones upon large ones: the simplices that trying all finds") {
+    std::mt19937_64 engine(7);
+    for (double const ratio : {1e2, 1e3, 1e4})
+        for (int trial = 0; trial < 4; ++trial) {
+            body<2> discs;
+            body<3> spheres;
+            for (int k = 0; k < 5; ++k) {
+                vec<double, 2> const x{6 * uniform(engine), 6 * uniform(engine)};
+                vec<double, 3> const y{5 * uniform(engine), 5 * uniform(engine), 5 * uniform(engine)};
+                discs.add(x, 1);
+                spheres.add(y, 1);
+                for (int j = 0; j < 5; ++j) {
+                    double const small = (0.3 + uniform(engine)) / ratio;
+                    discs.add(x + vec<double, 2>{1 + 1 / ratio + 3 / ratio * uniform(engine), 3 / ratio * uniform(engine)}, small);
+                    if (j < 2 + k % 3)
+                        spheres.add(y + vec<double, 3>{3 / ratio * uniform(engine), 1 + 1 / ratio + 3 / ratio * uniform(engine),
+                                                       3 / ratio * uniform(engine)}, small);
+                }
+            }
+            REQUIRE(sorted_corners(discs.mesh()) == try_all(discs));
+            REQUIRE(sorted_corners(spheres.mesh()) == try_all(spheres));
+        }
+}
+
+TEST_CASE("numbers that squares cannot hold are refused") {
+    auto b = make_hexagon();
+    b.x[3] = {1e200, 0};
+    REQUIRE_THROWS_WITH(b.pores(), contains_text("position of particle 3 = 1e+200: must be"));
+    REQUIRE_THROWS_WITH(b.mesh(), contains_text("position of particle 3 = 1e+200: must be"));
+    b.x[3] = {1, 0};
+    b.r[2] = 1e100;
+    REQUIRE_THROWS_WITH(b.pores(), contains_text("radius of particle 2 = 1e+100: must be"));
+}
+
+TEST_CASE("signs are exact where rounding would decide") {
+    // The point (0.5 + i u, 0.5 + j u) and the diagonal: 12 (y - x) by hand.
+    double const u = 0x1p-53;
+    for (int i = 0; i < 40; ++i)
+        for (int j = 0; j < 40; ++j) {
+            detail::weighted_sites<2> const sites{{{0.5 + i * u, 0.5 + j * u}, {12, 12}, {24, 24}}, {0, 0, 0}, {0, 0, 0}};
+            double const sign = detail::exact_signs<2>(sites).orientation({0, 1, 2});
+            double const expected = (0.5 + j * u) - (0.5 + i * u);
+            REQUIRE((sign > 0) == (expected > 0));
+            REQUIRE((sign < 0) == (expected < 0));
+        }
+    // The fourth corner of a square, on the circle of the others or off it by the last bit; the same with its radius.
+    auto const inside = [](double x, double radius) {
+        detail::weighted_sites<2> const sites{{{0, 0}, {1, 0}, {0, 1}, {x, x}}, {0, 0, 0, radius}, {0, 0, 0, 0}};
+        return detail::exact_signs<2>(sites).inside({0, 1, 2}, 3);
+    };
+    REQUIRE(inside(1, 0) == 0);
+    REQUIRE(inside(1 - 0x1p-53, 0) > 0);
+    REQUIRE(inside(1 + 0x1p-52, 0) < 0);
+    REQUIRE(inside(1, 1e-30) > 0);
+    // (1 + e)^2 ... : e (1 + e) 2 is the power by hand.
+    REQUIRE(inside(1 + 0x1p-40, std::sqrt(0x1p-39) * 0.999) < 0);
+    REQUIRE(inside(1 + 0x1p-40, std::sqrt(0x1p-39) * 1.001) > 0);
+    // A cube's corners are on one sphere.
+    detail::weighted_sites<3> cube;
+    for (int k = 0; k < 8; ++k) {
+        cube.x.push_back({0.1 * (k & 1), 0.1 * (k >> 1 & 1), 0.1 * (k >> 2)});
+        cube.radius.push_back(0.05);
+        cube.shift.push_back(0);
+    }
+    detail::exact_signs<3> const of_cube(cube);
+    REQUIRE(of_cube.orientation({0, 1, 2, 4}) > 0);
+    for (std::int32_t const p : {3, 5, 6, 7}) REQUIRE(of_cube.inside({0, 1, 2, 4}, p) == 0);
+    cube.radius[7] = 0.05 + 1e-17;
+    REQUIRE(of_cube.inside({0, 1, 2, 4}, 7) > 0);
+    cube.x[7][0] = std::nextafter(0.1, 1.0);
+    cube.radius[7] = 0.05;
+    REQUIRE(of_cube.inside({0, 1, 2, 4}, 7) < 0);
+}
+
+TEST_CASE("inserting one by one fills lattices, where all is a tie, and agrees with Qhull where nothing is") {
+    detail::weighted_sites<2> square;
+    detail::weighted_sites<3> cubic;
+    for (int i = 0; i < 9; ++i)
+        for (int j = 0; j < 9; ++j) {
+            square.x.push_back({i / 16.0, j / 16.0});
+            for (int k = 0; k < 5 && j < 5 && i < 5; ++k) cubic.x.push_back({i / 8.0, j / 8.0, k / 8.0});
+        }
+    square.radius.assign(81, 1.0 / 32);
+    square.shift.assign(81, 0);
+    cubic.radius.assign(125, 1.0 / 16);
+    cubic.shift.assign(125, 0);
+    REQUIRE(detail::incremental_triangulation<2>(square).simplices().size() == 128);
+    double volume = 0;
+    for (auto const& s : detail::incremental_triangulation<3>(cubic).simplices()) {
+        double const six = detail::exact_signs<3>(cubic).orientation(s);
+        REQUIRE(six > 0);
+        volume += six / 6;
+    }
+    REQUIRE_THAT(volume, WithinRel(0.125, 1e-12));
+
+    std::mt19937_64 engine(41);
+    body<2> b;
+    detail::weighted_sites<2> sites;
+    for (int k = 0; k < 400; ++k) {
+        b.add({uniform(engine), uniform(engine)}, 0.04 * uniform(engine));
+        sites.x.push_back({b.x.back()[0], b.x.back()[1]});
+        sites.radius.push_back(b.r.back());
+        sites.shift.push_back(0);
+    }
+    pore_mesh<2> mesh;
+    mesh.simplices = detail::incremental_triangulation<2>(sites).simplices();
+    REQUIRE(sorted_corners(mesh) == sorted_corners(b.mesh()));
+}
+
+TEST_CASE("the check of a triangulation finds a wrong diagonal, a hole, a lost particle") {
+    body<2> b;
+    for (int i = 0; i < 4; ++i)
+        for (int j = 0; j < 4; ++j) b.add({(j + 0.4 * (i % 2)) / 8, i / 8.0}, 0.05);
+    detail::weighted_sites<2> sites;
+    std::vector<std::int32_t> index;
+    for (std::size_t k = 0; k < b.x.size(); ++k) {
+        sites.x.push_back({b.x[k][0], b.x[k][1]});
+        index.push_back(std::int32_t(k));
+    }
+    sites.radius = b.r;
+    sites.shift.assign(b.x.size(), 0);
+    sites.reach = 1;
+    auto const right = b.mesh();
+    auto const holds = [&](pore_mesh<2> const& mesh) { return detail::regularity<2>(mesh, sites, index).holds(); };
+    REQUIRE(holds(right));
+
+    auto hole = right;
+    hole.simplices.erase(hole.simplices.begin() + 9);
+    detail::connect(hole);
+    REQUIRE_FALSE(holds(hole));
+
+    std::size_t flips = 0;
+    for (std::size_t t = 0; t < right.size(); ++t)
+        for (std::size_t c = 0; c < 3; ++c) {
+            auto const other = right.neighbours[t][c];
+            if (other < 0 || std::size_t(other) < t) continue;
+            auto const side = detail::side_of(right.simplices[t], c);
+            auto const own = right.simplices[t][c];
+            std::int32_t across = -1;
+            for (auto const i : right.simplices[std::size_t(other)])
+                if (i != side[0] && i != side[1]) across = i;
+            auto flipped = right;
+            flipped.simplices[t] = {own, side[0], across};
+            flipped.simplices[std::size_t(other)] = {own, across, side[1]};
+            detail::connect(flipped);
+            REQUIRE_FALSE(holds(flipped));
+            ++flips;
+        }
+    REQUIRE(flips > 15);
+
+    // A disc in the middle that no simplex knows of.
+    sites.x.push_back({0.2, 0.2});
+    sites.radius.push_back(0.05);
+    sites.shift.push_back(0);
+    REQUIRE_FALSE(holds(right));
+    // Hidden it may be left out; outside it may not.
+    sites.radius.back() = 0;
+    sites.x.back() = {0.125 + 0.01, 0.0 + 0.01};
+    REQUIRE(holds(right));
+    sites.x.back() = {-0.1, 0.1};
+    REQUIRE_FALSE(holds(right));
+}
+
+TEST_CASE("particles without pores are told why, and by their numbers") {
+    auto const refuse = [](body<2> const& b) {
+        refuse_no_pores(view_points(b.x), b.r.data(), [](std::size_t i) { return i + 100; });
+    };
+    body<2> b;
+    b.add({0, 1});
+    b.add({1, 1});
+    REQUIRE_THROWS_AS(refuse(b), std::invalid_argument);
+    REQUIRE_THROWS_WITH(refuse(b), contains_text("number of pores = 0: must be at least 1") &&
+                                       contains_text("3 particles around it, and there are 2"));
+    b.add({2, 1});
+    REQUIRE_THROWS_WITH(refuse(b), contains_text("particle 100 at (0, 1) m") && contains_text("particle 102 at (2, 1) m") &&
+                                       contains_text("on one line"));
+    b.add({0, 90});
+    REQUIRE_THROWS_WITH(refuse(b), contains_text("near enough"));
+    body<3> c;
+    for (int k = 0; k < 9; ++k) c.add({double(k % 3), double(k / 3), 7});
+    REQUIRE_THROWS_WITH(refuse_no_pores(view_points(c.x), c.r.data(), [](std::size_t i) { return i; }),
+                        contains_text("in one plane"));
+
+    // A simplex without size is no pore.
+    pore_mesh<2> flat;
+    flat.simplices = {{0, 1, 2}};
+    flat.neighbours = {{-1, -1, -1}};
+    REQUIRE_THROWS_WITH(make_pore_network(flat, view_points(b.x), b.r.data()),
+                        contains_text("0 at (0, 1), 1 at (1, 1), 2 at (2, 1) m = 0: must be > 0"));
+}
