@@ -47,6 +47,8 @@ struct chosen_flow {
             lacuna::implicit_flow_parameters<chosen_aperture>::for_each_named(visit);
             visit("kind", kind);
         }
+        /// A run without fluid: its network has no pores.
+        bool dry() const noexcept { return kind == flow_kind::none; }
         void validate(std::string const& name) const {
             if (kind == flow_kind::implicit_steps)
                 lacuna::implicit_flow_parameters<chosen_aperture>::validate(name);

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -13,79 +16,229 @@
 #include "fuzz/corpus.hpp"
 
 /// \file
-/// The triangulation: any numbers as discs, and discs on a small grid, where many lie on one circle, on one line or in
-/// one place. It refuses them or gives a mesh that is whole: corners that are particles, areas above zero, neighbours
-/// that know each other; and a network is made of it.
+/// The triangulation in the plane and in space, in both precisions: any numbers as particles, particles on a small grid,
+/// where many lie on one circle, on one line or in one place, radii over many decades, lattices with particles far away.
+/// It refuses them as bad input, by std::invalid_argument alone, or gives a mesh that is whole: corners that are
+/// particles, sizes above zero, neighbours that know each other; that covers the hull; and whose orthogonal spheres no
+/// particle enters, by trying all of them in long double. The same of the body's pores, of which a network is made.
 
 namespace {
 
-struct disc_list {
-    std::vector<double> x, radius; ///< x: two per disc
+constexpr std::size_t most = 40;
+
+struct reader {
+    std::uint8_t const* data;
+    std::size_t size, at = 0;
+
+    int byte() noexcept { return at < size ? data[at++] : 0; }
+    bool left(std::size_t bytes) const noexcept { return at + bytes <= size; }
 };
 
-disc_list read(std::uint8_t const* data, std::size_t size) {
-    constexpr std::size_t most = 48;
-    disc_list discs;
-    if (data[0] % 2 == 0) {
-        for (std::size_t at = 1; at + 24 <= size && discs.radius.size() < most; at += 24) {
-            double number[3];
-            std::memcpy(number, data + at, 24);
-            discs.x.insert(discs.x.end(), number, number + 2);
-            discs.radius.push_back(number[2]);
-        }
-    } else {
-        for (std::size_t at = 1; at + 2 <= size && discs.radius.size() < most; at += 2) {
-            discs.x.push_back(data[at] % 16);
-            discs.x.push_back(data[at] / 16);
-            discs.radius.push_back(data[at + 1] % 8 * 0.25);
+template <class Real, int Dim>
+struct particles {
+    std::vector<Real> x, radius; ///< x: Dim per particle
+
+    void add(std::array<double, std::size_t(Dim)> const& place, double r) {
+        for (double const c : place) x.push_back(Real(c));
+        radius.push_back(Real(r));
+    }
+    lacuna::points_view<Real, Dim> view() const { return {x.data(), radius.size(), std::size_t(Dim)}; }
+};
+
+/// Any numbers.
+template <class Real, int Dim>
+void read_numbers(reader& in, particles<Real, Dim>& p) {
+    while (in.left((Dim + 1) * sizeof(Real)) && p.radius.size() < most) {
+        Real number[Dim + 1];
+        std::memcpy(number, in.data + in.at, sizeof number);
+        in.at += sizeof number;
+        p.x.insert(p.x.end(), number, number + Dim);
+        p.radius.push_back(number[Dim]);
+    }
+}
+/// Places in sixteenths, radii over ten decades; or, on a small grid, of a few sizes.
+template <class Real, int Dim>
+void read_bytes(reader& in, particles<Real, Dim>& p, bool grid) {
+    while (in.left(Dim + 1) && p.radius.size() < most) {
+        std::array<double, std::size_t(Dim)> place;
+        for (double& c : place) c = grid ? in.byte() % (Dim == 2 ? 12 : 5) : (in.byte() - 128) / 16.0;
+        double const r = in.byte();
+        p.add(place, grid ? std::fmod(r, 8) * 0.25 : std::pow(10.0, (r - 200) / 24));
+    }
+}
+/// A lattice with a lack of order, small particles upon it, and some far away.
+template <class Real, int Dim>
+void read_lattice(reader& in, particles<Real, Dim>& p) {
+    int const side = 2 + in.byte() % (Dim == 2 ? 4 : 2);
+    double const noise = std::pow(10.0, -in.byte() % 18), ratio = std::pow(10.0, -(in.byte() % 50) / 10.0);
+    double const turn = in.byte() / 100.0, offset = std::pow(10.0, in.byte() % 8) - 1;
+    auto const shift = [&] { return (in.byte() - 127.5) / 256; };
+    for (int k = 0; k < (Dim == 2 ? side * side : side * side * side); ++k) {
+        double const u = k % side, v = k / side % side;
+        std::array<double, std::size_t(Dim)> place{};
+        place[0] = offset + u * std::cos(turn) - v * std::sin(turn) + noise * shift();
+        place[1] = u * std::sin(turn) + v * std::cos(turn) + noise * shift();
+        if (Dim == 3) place[Dim - 1] = k / (side * side) + noise * shift();
+        p.add(place, 0.5);
+        if (in.byte() % 4 == 0) {
+            for (double& c : place) c += 0.5 * shift() + ratio * shift();
+            p.add(place, ratio * (0.5 + shift()));
         }
     }
-    return discs;
+    while (in.left(Dim + 1) && p.radius.size() < most) {
+        std::array<double, std::size_t(Dim)> place;
+        double const far = std::pow(10.0, in.byte() % 20);
+        for (double& c : place) c = far * shift();
+        p.add(place, 0.5);
+    }
 }
 
-void check(lacuna::pore_mesh<2> const& mesh, lacuna::points_view<double, 2> points) {
-    for (std::size_t t = 0; t < mesh.size(); ++t) {
-        for (std::size_t c = 0; c < 3; ++c) {
-            fuzz::expect(mesh.simplices[t][c] >= 0 && std::size_t(mesh.simplices[t][c]) < points.size());
-            auto const other = mesh.neighbours[t][c];
-            if (other < 0) continue;
-            fuzz::expect(std::size_t(other) < mesh.size());
-            auto const& back = mesh.neighbours[std::size_t(other)];
-            fuzz::expect(std::find(back.begin(), back.end(), std::int32_t(t)) != back.end());
+using number = long double;
+template <std::size_t N>
+number determinant(std::array<std::array<number, N>, N> const& m) {
+    if constexpr (N == 2) {
+        return m[0][0] * m[1][1] - m[0][1] * m[1][0];
+    } else {
+        return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
+               m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
+    }
+}
+
+/// What the numbers of some particles are good for.
+template <class Real, int Dim>
+class brute_force {
+    static constexpr auto dim = std::size_t(Dim);
+    using simplex = std::array<std::int32_t, dim + 1>;
+    particles<Real, Dim> const& p_;
+    number reach_ = 0, shift_ = 0;
+
+    number place(std::int32_t i, std::size_t a) const { return number(p_.x[std::size_t(i) * dim + a]); }
+    number weight(std::int32_t i) const { return number(p_.radius[std::size_t(i)]) * number(p_.radius[std::size_t(i)]); }
+    std::array<number, dim> apart(std::int32_t i, std::int32_t from) const {
+        std::array<number, dim> u;
+        for (std::size_t a = 0; a < dim; ++a) u[a] = place(i, a) - place(from, a);
+        return u;
+    }
+    static number squared(std::array<number, dim> const& u) {
+        number sum = 0;
+        for (auto const c : u) sum += c * c;
+        return sum;
+    }
+    static number product(std::array<std::array<number, dim>, dim> const& m) {
+        number all = 1;
+        for (auto const& row : m) all *= std::sqrt(squared(row));
+        return all;
+    }
+
+public:
+    explicit brute_force(particles<Real, Dim> const& p) : p_(p) {
+        number extent = 0, largest = 0;
+        for (std::size_t i = 0; i < p.radius.size(); ++i) {
+            largest = std::max(largest, number(p.radius[i]));
+            for (std::size_t j = 0; j < i; ++j)
+                for (auto const c : apart(std::int32_t(i), std::int32_t(j))) extent = std::max(extent, std::fabs(c));
         }
+        reach_ = largest > 0 ? std::min(extent, 64 * largest) : extent;
+        // What regular_triangulation() says that it adds to heights in space.
+        if (Dim == 3) shift_ = largest > 0 ? std::min(1e-7L * extent * extent, 64e-7L * largest * largest) : 1e-7L * extent * extent;
+    }
+
+    /// Whether p stays out of the orthogonal sphere of s when weights may change by what is allowed.
+    bool is_outside(simplex const& s, std::int32_t p) const {
+        number inside = 0, error = 0, share = 0, whole = 0, nearest = std::numeric_limits<number>::infinity();
+        for (std::size_t k = 0; k <= dim; ++k) {
+            auto const u = apart(s[k], p);
+            std::array<std::array<number, dim>, dim> m;
+            for (std::size_t j = 0; j < dim; ++j) m[j] = apart(s[j < k ? j : j + 1], p);
+            number const size = determinant(m), signed_size = k % 2 == 0 ? size : -size;
+            inside += signed_size * (squared(u) - weight(s[k]) + weight(p));
+            error += 1e-17L * product(m) * (squared(u) + weight(s[k]) + weight(p));
+            share += std::fabs(size);
+            whole += signed_size;
+            nearest = std::min(nearest, squared(u));
+            for (std::size_t j = 0; j < k; ++j) nearest = std::min(nearest, squared(apart(s[j], s[k])));
+        }
+        share += std::fabs(whole);
+        return !(inside > error + share * (2e-7L * nearest + shift_ + 1e-9L * reach_ * reach_));
+    }
+    /// Whether no particle is beyond a side of a simplex, opposite its corner c.
+    bool is_within(simplex const& s, std::size_t c, std::int32_t p) const {
+        auto turned = s;
+        turned[c] = p;
+        std::array<std::array<number, dim>, dim> m;
+        number longest = 0;
+        for (std::size_t k = 0; k < dim; ++k) {
+            m[k] = apart(turned[k + 1], turned[0]);
+            longest = std::max(longest, std::sqrt(squared(m[k])));
+        }
+        return determinant(m) >= -1e-9L * std::pow(longest, number(Dim));
+    }
+
+    void check(lacuna::pore_mesh<Dim> const& mesh, bool covers) const {
+        auto const count = std::int32_t(p_.radius.size());
+        fuzz::expect(mesh.neighbours.size() == mesh.size());
+        for (std::size_t t = 0; t < mesh.size(); ++t) {
+            auto const& s = mesh.simplices[t];
+            for (std::size_t c = 0; c <= dim; ++c) {
+                fuzz::expect(s[c] >= 0 && s[c] < count && std::count(s.begin(), s.end(), s[c]) == 1);
+                auto const other = mesh.neighbours[t][c];
+                if (other < 0) {
+                    for (std::int32_t p = 0; covers && p < count; ++p)
+                        if (!std::count(s.begin(), s.end(), p)) fuzz::expect(is_within(s, c, p));
+                    continue;
+                }
+                fuzz::expect(std::size_t(other) < mesh.size());
+                auto const& back = mesh.neighbours[std::size_t(other)];
+                fuzz::expect(std::find(back.begin(), back.end(), std::int32_t(t)) != back.end());
+            }
+            std::array<std::array<number, dim>, dim> m;
+            for (std::size_t k = 0; k < dim; ++k) m[k] = apart(s[k + 1], s[0]);
+            fuzz::expect(determinant(m) >= -1e-17L * product(m));
+            for (std::int32_t p = 0; p < count; ++p)
+                if (!std::count(s.begin(), s.end(), p)) fuzz::expect(is_outside(s, p));
+        }
+    }
+};
+
+template <class Real, int Dim>
+void try_one(reader& in, int kind) {
+    particles<Real, Dim> p;
+    if (kind == 0) read_numbers(in, p);
+    if (kind == 1 || kind == 2) read_bytes(in, p, kind == 1);
+    if (kind == 3) read_lattice(in, p);
+    auto const points = p.view();
+    try {
+        auto const mesh = lacuna::regular_triangulation(points, p.radius.data());
+        brute_force<Real, Dim> const truth(p);
+        truth.check(mesh, true);
+        auto const body = lacuna::triangulate_body(points, p.radius.data());
+        truth.check(body, false);
+        (void)lacuna::make_pore_network(body, points, p.radius.data());
+    } catch (std::invalid_argument const&) {
     }
 }
 
 } // namespace
 
 extern "C" int LLVMFuzzerInitialize(int* argc, char*** argv) {
-    std::string grid = "g", row = "g", numbers = "n";
-    for (int k = 0; k < 16; ++k) {
-        grid += char(k % 4 * 16 + k / 4);
-        grid += char(2);
-        row += char(k);
-        row += char(1);
-        double const disc[3] = {std::cos(k), std::sin(1.7 * k), 0.1 + 0.01 * k};
-        numbers.append(reinterpret_cast<char const*>(disc), sizeof disc);
+    for (int flags = 0; flags < 16; ++flags) {
+        std::string bytes(1, char(flags));
+        for (int k = 0; k < 150; ++k) bytes += char((k * 77 + 31 * flags) % 251);
+        fuzz::write_seed(*argc, *argv, "made" + std::to_string(flags), bytes);
     }
-    fuzz::write_seed(*argc, *argv, "grid", grid);
-    fuzz::write_seed(*argc, *argv, "row", row);
-    fuzz::write_seed(*argc, *argv, "numbers", numbers);
     return 0;
 }
 
+/// The first byte: dimension, precision, kind.
 extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size) {
     if (size == 0) return 0;
-    auto const discs = read(data, size);
-    lacuna::points_view<double, 2> const points{discs.x.data(), discs.radius.size(), 2};
-    try {
-        check(lacuna::regular_triangulation(points, discs.radius.data()), points);
-        auto const body = lacuna::triangulate_body(points, discs.radius.data());
-        check(body, points);
-        (void)lacuna::make_pore_network(body, points, discs.radius.data());
-    } catch (std::invalid_argument const&) {
-    } catch (std::runtime_error const&) {
-        // Qhull's answer to numbers of very different size.
+    reader in{data, size, 1};
+    int const kind = data[0] >> 2 & 3;
+    switch (data[0] & 3) {
+    case 0: try_one<double, 2>(in, kind); break;
+    case 1: try_one<double, 3>(in, kind); break;
+    case 2: try_one<float, 2>(in, kind); break;
+    default: try_one<float, 3>(in, kind);
     }
     return 0;
 }

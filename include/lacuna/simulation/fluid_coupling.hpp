@@ -3,9 +3,11 @@
 
 #include <cstdint>
 #include <optional>
+#include <utility>
 
 #include <lacuna/model.hpp>
 #include <lacuna/particles/store.hpp>
+#include <lacuna/pores/no_pores.hpp>
 #include <lacuna/simulation/remesher.hpp>
 
 namespace lacuna {
@@ -24,11 +26,17 @@ public:
     flow_type* get() noexcept { return flow_ ? &*flow_ : nullptr; }
 
     /// \param make callable (positions, radii) -> pore_network in the store's numbering
+    /// \throws std::invalid_argument for a network without pores, unless the flow's parameters say that they are dry()
     template <class Make, class Pairs>
     void fill(store_type const& store, Pairs const& pairs, typename Model::flow::parameters const& parameters,
               remesh_parameters const& remeshing, double thickness, Make const& make) {
         auto const* radii = store.radii().data();
-        flow_.emplace(parameters, make(store.positions(), radii), real(thickness), store.positions(), radii);
+        auto network = make(store.positions(), radii);
+        bool dry = false;
+        if constexpr (requires { parameters.dry(); }) dry = parameters.dry();
+        if (network.pores() == 0 && !dry)
+            refuse_no_pores(store.positions(), radii, [&](std::size_t i) { return store.id(i); });
+        flow_.emplace(parameters, std::move(network), real(thickness), store.positions(), radii);
         if constexpr (has_fluid<Model>) {
             remesher_.start(remeshing, make, real(thickness), *flow_, store.positions(), radii, pairs);
             map_throats(pairs);
