@@ -16,7 +16,7 @@ namespace lacuna_run {
 inline void begin_other_probes(journal& restored, std::string const& heading) {
     if (restored.heading == heading) return;
     restored.heading = heading;
-    restored.rows.clear();
+    restored.probes = {};
 }
 
 } // namespace lacuna_run

@@ -39,13 +39,11 @@ std::vector<double> flat(std::vector<point> const& points) {
 
 } // namespace
 
-void write_vtk(output_directory const& out, frame_data const& f, scenario const& s, journal& j) {
-    j.frames.push_back({f.time, numbered("", f.step, ".vtp")});
+void write_vtk(results& out, frame_data const& f, scenario const& s, journal const& j) {
     auto const save = [&](char const* name, lacuna::vtk_surface const& surface) {
-        lacuna::save_vtk(out.file(numbered(name, f.step, ".vtp")), surface, vtk_storage{});
-        std::vector<std::pair<double, std::string>> series;
-        for (auto const& [time, ending] : j.frames) series.emplace_back(time, name + ending);
-        lacuna::save_vtk_series(out.file(std::string(name) + ".pvd"), series);
+        std::string const frame = numbered(name, f.step, ".vtp");
+        lacuna::save_vtk(out.file(frame), surface, vtk_storage{});
+        out.add_frame(name, f.time, frame);
     };
     lacuna::vtk_surface bodies;
     bodies.coordinates = flat(f.position);
@@ -60,7 +58,7 @@ void write_vtk(output_directory const& out, frame_data const& f, scenario const&
         joints.kind = lacuna::vtk_surface::cells::lines;
         joints.coordinates = bodies.coordinates;
         std::vector<double> mode(s.joints.pairs.size(), 0);
-        for (break_line const& b : j.breaks) mode[std::size_t(b.bond)] = b.shear ? 2 : 1;
+        for (crack const& c : j.cracks) mode[std::size_t(c.bond)] = c.shear ? 2 : 1;
         for (pair const& p : s.joints.pairs) joints.add_cell({p[0], p[1]});
         joints.cell_data = {{"mode", 1, mode}};
         save("bonds", joints);
@@ -81,7 +79,7 @@ void write_vtk(output_directory const& out, frame_data const& f, scenario const&
 
 #ifdef LACUNA_HAS_PICTURES
 
-void write_picture(output_directory const& out, frame_data const& f, scenario const& s, journal const& j) {
+void write_picture(results const& out, frame_data const& f, scenario const& s, journal const& j) {
     using lacuna::scene;
     scene picture;
     std::vector<char> bonded(f.position.size(), 0);
@@ -101,10 +99,10 @@ void write_picture(output_directory const& out, frame_data const& f, scenario co
     };
     for (std::size_t b = 0; b < s.joints.pairs.size(); ++b)
         if (f.intact[b]) picture.bonds.push_back({at(s.joints.pairs[b][0]), at(s.joints.pairs[b][1])});
-    for (break_line const& b : j.breaks)
-        picture.cracks.push_back({{b.position[0], b.position[1]},
-                                  {b.direction[0], b.direction[1]},
-                                  b.shear ? scene::break_mode::shear : scene::break_mode::tension});
+    for (crack const& c : j.cracks)
+        picture.cracks.push_back({{c.position[0], c.position[1]},
+                                  {c.direction[0], c.direction[1]},
+                                  c.shear ? scene::break_mode::shear : scene::break_mode::tension});
     for (auto const& p : f.pores)
         picture.pores.push_back({(at(p.corners[0]) + at(p.corners[1]) + at(p.corners[2])) / 3.0, p.pressure});
     for (load const& l : s.loads)
@@ -125,13 +123,13 @@ void write_picture(output_directory const& out, frame_data const& f, scenario co
     }
     picture.title = "step " + std::to_string(f.step) + lacuna::formatted(", t = %.6g s", f.time);
     if (!s.joints.pairs.empty())
-        picture.subtitle = std::to_string(j.breaks.size()) + " of " + std::to_string(s.joints.pairs.size()) + " bonds broken";
+        picture.subtitle = std::to_string(j.cracks.size()) + " of " + std::to_string(s.joints.pairs.size()) + " bonds broken";
     lacuna::save_damage(out.file(numbered("picture", f.step, "")), picture);
 }
 
 #else
 
-void write_picture(output_directory const&, frame_data const&, scenario const&, journal const&) {
+void write_picture(results const&, frame_data const&, scenario const&, journal const&) {
     refuse("output.picture_every", "(given)", "0: this program was built without pictures");
 }
 

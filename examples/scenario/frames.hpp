@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "journal.hpp"
+#include "results.hpp"
 #include "scenario.hpp"
 
 namespace lacuna_run {
@@ -25,10 +25,10 @@ struct frame_data {
 };
 
 /// Writes particles-<step>.vtp, bonds-<step>.vtp, pores-<step>.vtp where there are pores, and the series particles.pvd
-/// and so on, and enters the frame into the journal.
-void write_vtk(output_directory const& out, frame_data const& f, scenario const& s, journal& j);
+/// and so on.
+void write_vtk(results& out, frame_data const& f, scenario const& s, journal const& j);
 
 /// Writes picture-<step>.png and .svg.
-void write_picture(output_directory const& out, frame_data const& f, scenario const& s, journal const& j);
+void write_picture(results const& out, frame_data const& f, scenario const& s, journal const& j);
 
 } // namespace lacuna_run

@@ -3,8 +3,9 @@
 
 #include <cstdint>
 #include <string>
-#include <utility>
 #include <vector>
+
+#include <lacuna/observe/growing_file.hpp>
 
 #include "scenario.hpp"
 
@@ -21,38 +22,30 @@ struct break_line {
     double normal_force = 0, shear_force = 0, energy = 0;
 };
 
-/// What a run has told so far, and how it ended: all that its files say.
+/// What pictures and VTK files show of a broken bond.
+struct crack {
+    std::int32_t bond = 0;
+    bool shear = false;
+    point position{}, direction{};
+};
+
+/// What a run's files say so far: a part of its state. The rows are in the files alone, of which it knows how far they go.
 struct journal {
-    std::vector<std::string> rows; ///< of probes.csv
-    std::vector<break_line> breaks;
-    struct frame {
-        double time;
-        std::string ending; ///< of the files' names
-    };
-    std::vector<frame> frames; ///< of the VTK series
-    std::string heading;       ///< of probes.csv
+    std::string heading; ///< of probes.csv
+    std::vector<crack> cracks;
+    lacuna::file_mark probes, events, particles, bonds, pores; ///< of the logs and of the series of frames
     std::size_t broken(bool shear) const noexcept {
         std::size_t count = 0;
-        for (break_line const& b : breaks) count += b.shear == shear;
+        for (crack const& c : cracks) count += c.shear == shear;
         return count;
     }
 };
 
-/// The output directory: made, and proved to be writable, when it is opened; each file appears whole or not at all.
-class output_directory {
-public:
-    /// \throws refusal when it cannot be written
-    explicit output_directory(std::string const& path);
-    std::string file(std::string const& name) const { return path_ + "/" + name; }
-    void write(std::string const& name, std::string const& text) const;
-
-private:
-    std::string path_;
-};
-
 /// First line of probes.csv.
 std::string heading_of(scenario const& s);
-std::string probes_text(journal const& j);
-std::string events_text(scenario const& s, journal const& j);
+/// First line of events.csv.
+std::string event_heading(scenario const& s);
+/// A line of events.csv.
+std::string event_text(scenario const& s, break_line const& b);
 
 } // namespace lacuna_run

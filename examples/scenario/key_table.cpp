@@ -126,7 +126,8 @@ std::string keys_help() {
         if (section == "probes") text += quantities_help();
     }
     return text + "\nExit status: 0 done, 1 a file could not be written, 2 the scenario is refused (nothing is written),\n"
-                  "3 the run went unstable (what it had told so far is written).\n";
+                  "3 the run went unstable (what it had told so far is written), 130 and 143 stopped by Ctrl-C and SIGTERM\n"
+                  "(the same, and --restart goes on from there).\n";
 }
 
 std::string keys_markdown(std::string_view section) {

@@ -7,7 +7,9 @@
 #include <CLI/CLI.hpp>
 
 #include <lacuna/core/error.hpp>
+#include <lacuna/observe/stop_signal.hpp>
 
+#include "checkpoints.hpp"
 #include "key_table.hpp"
 #include "runner.hpp"
 
@@ -17,33 +19,49 @@ enum exit_status { done = 0, failed = 1, refused = 2, unstable = 3 };
 
 struct request {
     std::string file, checkpoint;
-    bool check = false, quiet = false;
+    bool check = false, force = false, quiet = false;
 };
 
-void write_results(lacuna_run::output_directory const& out, lacuna_run::scenario const& s, lacuna_run::runner const& run,
-                   std::string const& ended, std::string const& message) {
-    out.write("probes.csv", lacuna_run::probes_text(run.told()));
-    out.write("events.csv", lacuna_run::events_text(s, run.told()));
-    // Last, because its presence says that the run is finished.
-    out.write("summary.json", run.summary(ended, message));
+/// A run that a signal has stopped: marked, and how to go on.
+int say_stopped(request const& asked, lacuna_run::results& out, lacuna_run::runner const& run) {
+    int const number = lacuna::stop_signal();
+    std::string const signal = lacuna::signal_name(number);
+    out.finish(run.summary("stopped by " + signal, "after step " + std::to_string(run.steps())), false);
+#ifdef LACUNA_RUN_CHECKPOINTS
+    std::string const how = "--restart " + out.file("checkpoint.bin") + " goes on from there";
+#else
+    std::string const how = "built without checkpoints it cannot go on";
+#endif
+    std::fprintf(stderr, "lacuna-run: %s: stopped by %s after step %lld; %s\n", asked.file.c_str(), signal.c_str(), run.steps(),
+                 how.c_str());
+    return 128 + number;
 }
 
 int run(request const& asked) {
     auto const scenario = lacuna_run::read_scenario_file(asked.file);
     auto const run = lacuna_run::make_runner(scenario);
-    if (!asked.checkpoint.empty()) run->restore(asked.checkpoint);
+    lacuna_run::resumption start;
+    if (!asked.checkpoint.empty()) {
+        run->restore(asked.checkpoint);
+        start = lacuna_run::find_earlier_part(scenario, asked.checkpoint, run->told(), run->steps());
+    }
     if (asked.check) {
         if (!asked.quiet) std::printf("%s: fine\n", asked.file.c_str());
         return done;
     }
-    lacuna_run::output_directory const out(scenario.out.directory);
+    lacuna::watch_stop_signals();
+    lacuna_run::results out(scenario, asked.force, start);
+    out.begin();
     try {
-        run->run(out);
+        if (!run->run(out)) return say_stopped(asked, out, *run);
     } catch (lacuna::unstable_run const& bad) {
-        write_results(out, scenario, *run, "unstable", bad.what());
+        out.finish(run->summary("unstable", bad.what()), true);
+        throw;
+    } catch (std::invalid_argument const&) {
+        if (asked.checkpoint.empty() && run->steps() == 0) out.discard();
         throw;
     }
-    write_results(out, scenario, *run, scenario.simulation.steps ? "steps" : "end_time", "");
+    out.finish(run->summary(scenario.simulation.steps ? "steps" : "end_time", ""), true);
     if (!asked.quiet)
         for (char const* name : {"probes.csv", "events.csv", "summary.json"}) std::printf("%s\n", out.file(name).c_str());
     return done;
@@ -56,6 +74,7 @@ int parse(int argc, char** argv, request& asked) {
     app.add_option("FILE", asked.file, "the scenario")->required();
     app.add_flag("--check", asked.check, "only check the scenario");
     app.add_option("--restart", asked.checkpoint, "go on from a checkpoint of the same scenario");
+    app.add_flag("--force", asked.force, "replace the results that are in the output directory; other files in it stay");
     app.add_flag("--quiet", asked.quiet, "say nothing but errors");
     try {
         app.parse(argc, argv);

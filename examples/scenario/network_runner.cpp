@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include <lacuna/observe/stop_signal.hpp>
 #include <lacuna/pores/flow_time_step.hpp>
 
 #include "checkpoints.hpp"
@@ -74,15 +75,21 @@ public:
 #endif
     }
 
-    void run(output_directory const& out) override {
-        if (step_ == 0) tell(out);
-        while (!is_over()) {
+    bool run(results& out) override {
+        // A run that was stopped before its first step has told its beginning.
+        if (step_ == 0 && journal_.events.bytes == 0) tell(out);
+        while (!is_over() && lacuna::stop_signal() == 0) {
             flow_->advance(Real(time_step_), scenario_.simulation.threads);
             ++step_;
             tell(out);
         }
+#ifdef LACUNA_RUN_CHECKPOINTS
+        if (!is_over()) save(out, false);
+#endif
+        return is_over();
     }
     journal const& told() const override { return journal_; }
+    long long steps() const override { return step_; }
     std::string summary(std::string const& ended, std::string const& message) const override {
         run_numbers n;
         n.ended = ended;
@@ -104,10 +111,13 @@ private:
         bytes(lacuna::hash_of_shape(flow_->network()), time_step_);
         return bytes.bytes();
     }
-    void save(output_directory const& out) const {
+    void save(results& out, bool regular) {
+        out.mark(journal_);
+        if (!regular) out.make_room_for_stop();
         lacuna::state_writer state;
         state(*flow_, journal_, step_);
         lacuna::write_checkpoint(out.file("checkpoint.bin"), {model_text(), shape_text(), state.bytes(), told_});
+        if (regular) out.checkpoint_is_regular();
     }
 #endif
     points where() const { return lacuna::view_points(position_); }
@@ -133,7 +143,7 @@ private:
         }
     }
 
-    void tell(output_directory const& out) {
+    void tell(results& out) {
         bool any = false;
         for (probe const& p : scenario_.probes) any = any || step_ % p.every == 0;
         if (any) {
@@ -142,13 +152,13 @@ private:
                 row += ",";
                 if (step_ % p.every == 0) row += lacuna::to_text(read(p));
             }
-            journal_.rows.push_back(row + "\n");
+            out.add_row(row + "\n");
         }
         auto const due = [&](long long every) { return every > 0 && step_ % every == 0; };
         if (due(scenario_.out.vtk_every)) write_vtk(out, frame(), scenario_, journal_);
         if (due(scenario_.out.picture_every)) write_picture(out, frame(), scenario_, journal_);
 #ifdef LACUNA_RUN_CHECKPOINTS
-        if (step_ > 0 && due(scenario_.out.checkpoint_every)) save(out);
+        if (step_ > 0 && due(scenario_.out.checkpoint_every)) save(out, true);
 #endif
     }
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include <lacuna/loads/surface_traction.hpp>
+#include <lacuna/observe/stop_signal.hpp>
 
 #include "checkpoints.hpp"
 #include "frames.hpp"
@@ -63,8 +64,9 @@ public:
     }
 
     void restore(std::string const& path) override;
-    void run(output_directory const& out) override;
+    bool run(results& out) override;
     journal const& told() const override { return journal_; }
+    long long steps() const override { return sim_->steps(); }
     std::string summary(std::string const& ended, std::string const& message) const override;
 
 private:
@@ -88,9 +90,9 @@ private:
     void set_up();
     void fill();
     void drive_on(scenario const& before);
-    void save(output_directory const& out) const;
     double settled_step() const;
-    void tell_row();
+    void tell_row(results& out);
+    void save(results& out, bool regular);
     double read(probe const& p) const;
     double read_of_particle(probe const& p) const;
     double read_of_bond(probe const& p) const;
@@ -248,7 +250,7 @@ public:
     static constexpr lacuna::stage stages = lacuna::stage::step | lacuna::stage::breakage;
     static constexpr bool needs_energy = true;
 
-    watcher(particle_runner& run, output_directory const& out) : run_(run), out_(out) {}
+    watcher(particle_runner& run, results& out) : run_(run), out_(out) {}
 
     void on_break(lacuna::break_event<dim> const& e, simulation const& sim) {
         break_line line;
@@ -265,35 +267,37 @@ public:
         line.normal_force = e.normal_force;
         line.shear_force = e.shear_force;
         line.energy = e.energy;
-        run_.journal_.breaks.push_back(line);
+        run_.journal_.cracks.push_back({line.bond, line.shear, line.position, line.direction});
+        out_.add_break(line);
     }
     lacuna::run_control on_step(simulation const& sim) {
-        run_.tell_row();
+        run_.tell_row(out_);
         auto const& o = run_.scenario_.out;
         auto const due = [&](long long every) { return every > 0 && sim.steps() % every == 0; };
         if (due(o.vtk_every)) write_vtk(out_, run_.frame(), run_.scenario_, run_.journal_);
         if (due(o.picture_every)) write_picture(out_, run_.frame(), run_.scenario_, run_.journal_);
 #ifdef LACUNA_RUN_CHECKPOINTS
-        if (due(o.checkpoint_every)) run_.save(out_);
+        if (due(o.checkpoint_every)) run_.save(out_, true);
 #endif
-        return run_.is_over() ? lacuna::run_control::stop : lacuna::run_control::go_on;
+        return run_.is_over() || lacuna::stop_signal() != 0 ? lacuna::run_control::stop : lacuna::run_control::go_on;
     }
 
 private:
     particle_runner& run_;
-    output_directory const& out_;
+    results& out_;
 };
 
 template <class Model>
-void particle_runner<Model>::run(output_directory const& out) {
+bool particle_runner<Model>::run(results& out) {
     auto const& o = scenario_.out;
-    if (sim_->steps() == 0) {
-        tell_row();
+    // A run that was stopped before its first step has told its beginning.
+    if (sim_->steps() == 0 && journal_.events.bytes == 0) {
+        tell_row(out);
         if (o.vtk_every > 0) write_vtk(out, frame(), scenario_, journal_);
         if (o.picture_every > 0) write_picture(out, frame(), scenario_, journal_);
     }
     watcher watch(*this, out);
-    while (!is_over()) {
+    while (!is_over() && lacuna::stop_signal() == 0) {
         auto const& set = scenario_.simulation;
         double const left = set.steps ? double(*set.steps - sim_->steps())
                                       : std::ceil((*set.end_time - sim_->time()) / sim_->time_step());
@@ -306,16 +310,23 @@ void particle_runner<Model>::run(output_directory const& out) {
             throw;
         }
     }
+#ifdef LACUNA_RUN_CHECKPOINTS
+    if (!is_over()) save(out, false);
+#endif
+    return is_over();
 }
 
-template <class Model>
-void particle_runner<Model>::save([[maybe_unused]] output_directory const& out) const {
 #ifdef LACUNA_RUN_CHECKPOINTS
+template <class Model>
+void particle_runner<Model>::save(results& out, bool regular) {
+    out.mark(journal_);
+    if (!regular) out.make_room_for_stop();
     auto content = lacuna::checkpoint_of(*sim_, journal_);
     content.told = told_;
     lacuna::write_checkpoint(out.file("checkpoint.bin"), content);
-#endif
+    if (regular) out.checkpoint_is_regular();
 }
+#endif
 
 template <class Model>
 void particle_runner<Model>::restore([[maybe_unused]] std::string const& path) {
@@ -340,16 +351,16 @@ void particle_runner<Model>::restore([[maybe_unused]] std::string const& path) {
 }
 
 template <class Model>
-void particle_runner<Model>::tell_row() {
-    bool any = false;
-    for (probe const& p : scenario_.probes) any = any || sim_->steps() % p.every == 0;
-    if (!any) return;
+void particle_runner<Model>::tell_row(results& out) {
+    bool due = false;
+    for (probe const& p : scenario_.probes) due = due || sim_->steps() % p.every == 0;
+    if (!due) return;
     std::string row = std::to_string(sim_->steps()) + "," + lacuna::to_text(sim_->time());
     for (probe const& p : scenario_.probes) {
         row += ",";
         if (sim_->steps() % p.every == 0) row += lacuna::to_text(read(p));
     }
-    journal_.rows.push_back(row + "\n");
+    out.add_row(row + "\n");
 }
 
 template <class Model>

@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "journal.hpp"
+#include "results.hpp"
 #include "scenario.hpp"
 
 namespace lacuna_run {
@@ -15,11 +15,13 @@ public:
     virtual ~runner() = default;
     /// Goes on from a checkpoint of the same scenario. \throws refusal for a file that is not one
     virtual void restore(std::string const& path) = 0;
-    /// Runs to the end and writes everything but the three final files. \throws lacuna::unstable_run
-    virtual void run(output_directory const& out) = 0;
+    /// Runs to the end, or until a signal asks to stop, and tells in `out` what it does; then there is a checkpoint.
+    /// \return whether the end was reached \throws lacuna::unstable_run
+    virtual bool run(results& out) = 0;
     virtual journal const& told() const = 0;
+    virtual long long steps() const = 0;
     /// summary.json: how the run ended, in numbers.
-    /// \param ended "steps", "end_time" or "unstable"; \param message what went wrong, empty if nothing
+    /// \param ended "steps", "end_time", "unstable" or "stopped by" a signal; \param message what went wrong, empty if nothing
     virtual std::string summary(std::string const& ended, std::string const& message) const = 0;
 };
 

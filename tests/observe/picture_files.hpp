@@ -17,7 +17,7 @@ struct scratch_directory {
         path = pattern;
     }
     ~scratch_directory() { std::filesystem::remove_all(path); }
-    std::string file(char const* name) const { return (path / name).string(); }
+    std::string file(std::string const& name) const { return (path / name).string(); }
     std::size_t entries() const { return std::size_t(std::distance(std::filesystem::directory_iterator(path), {})); }
 };
 

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 
 #include <lacuna/observe/crack_record.hpp>
+#include <lacuna/observe/vtk_series.hpp>
+#include <lacuna/particles/hexagonal.hpp>
 #include <lacuna/pores/implicit_flow.hpp>
 #include <lacuna/simulation/checkpoint.hpp>
 
@@ -295,4 +299,76 @@ TEST_CASE("a checkpoint that is not sound is refused, and nothing changes", "[ch
 
 TEST_CASE("checkpoint_every refuses an interval below one", "[checkpoint][refusal]") {
     REQUIRE_THROWS_AS(lacuna::checkpoint_every(0, "name"), std::invalid_argument);
+}
+
+TEST_CASE("a series of frames is that of the run never stopped, resumed with and without being kept", "[checkpoint][vtk]") {
+    namespace fs = std::filesystem;
+    struct model : lacuna::default_model<2> {};
+    auto const make = [] {
+        lacuna::simulation<model> sim(lacuna::chain<double, 2>(5, 0.5, true), lacuna::simulation_parameters<model>{});
+        sim.set_velocity(4, {0.1, 0.0});
+        return sim;
+    };
+    struct folder {
+        explicit folder(std::string name) : path("series_" + std::move(name)) {
+            fs::remove_all(path);
+            fs::create_directory(path);
+        }
+        ~folder() { fs::remove_all(path); }
+        std::string path;
+    };
+    auto const files = [](std::string const& path) {
+        std::map<std::string, std::string> all;
+        for (auto const& entry : fs::directory_iterator(path)) all[entry.path().filename().string()] = read_all(entry.path().string());
+        return all;
+    };
+    auto const listed = [](std::string const& text) {
+        std::size_t count = 0;
+        for (auto at = text.find("<DataSet"); at != text.npos; at = text.find("<DataSet", at + 1)) ++count;
+        return count;
+    };
+    folder const whole("whole"), parts("parts");
+    {
+        auto sim = make();
+        lacuna::vtk_series<> frames(whole.path + "/run", 10);
+        sim.run(100, frames);
+    }
+    auto const expected = files(whole.path);
+    REQUIRE(listed(expected.at("run-particles.pvd")) == 11);
+    REQUIRE(listed(expected.at("run-bonds.pvd")) == 11);
+    scratch_file const file("series");
+    for (bool const kept : {false, true})
+        for (long long const at : {50, 53}) {
+            // The first part goes on for a while after its checkpoint, as one does that is killed.
+            {
+                auto sim = make();
+                lacuna::vtk_series<> frames(parts.path + "/run", 10);
+                auto const run = [&](auto const& checkpoints) { sim.run(70, frames, checkpoints); };
+                if (kept)
+                    run(lacuna::checkpoint_every(at, file.path, frames));
+                else
+                    run(lacuna::checkpoint_every(at, file.path));
+            }
+            auto sim = make();
+            lacuna::vtk_series<> frames(parts.path + "/run", 10);
+            if (kept)
+                lacuna::load_checkpoint(file.path, sim, frames);
+            else
+                lacuna::load_checkpoint(file.path, sim);
+            REQUIRE(sim.steps() == at);
+            sim.run(100 - at, frames);
+            REQUIRE(files(parts.path) == expected);
+            // Back to the checkpoint in the same process.
+            if (kept)
+                lacuna::load_checkpoint(file.path, sim, frames);
+            else
+                lacuna::load_checkpoint(file.path, sim);
+            sim.run(100 - at, frames);
+            REQUIRE(files(parts.path) == expected);
+        }
+    // Another run from the start in the same place lists its own frames alone.
+    auto sim = make();
+    lacuna::vtk_series<> frames(parts.path + "/run", 10);
+    sim.run(20, frames);
+    REQUIRE(listed(read_all(parts.path + "/run-particles.pvd")) == 3);
 }

@@ -3,6 +3,7 @@
 
 #include <lacuna/core/standard.hpp>
 
+#include <atomic>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -13,25 +14,49 @@
 
 #if __has_include(<unistd.h>)
 #include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 #endif
 
 namespace lacuna {
 
-/// A file that appears whole or not at all: it is written under a temporary name in the same directory and gets
-/// its own name in `commit()`. Without commit, destruction removes it and leaves an earlier file untouched.
+namespace detail {
+#if __has_include(<unistd.h>)
+/// Whether an open file is still what its path names.
+inline bool is_at(int file, std::string const& path) noexcept {
+    struct stat opened {}, named {};
+    return fstat(file, &opened) == 0 && stat(path.c_str(), &named) == 0 && opened.st_ino == named.st_ino &&
+           opened.st_dev == named.st_dev;
+}
+#endif
+[[noreturn]] inline void fail_file(char const* what, std::string const& path) {
+    throw std::runtime_error(std::string(what) + " " + path + ": " + std::strerror(errno));
+}
+} // namespace detail
+
+/// A file that appears whole or not at all: it is written under a temporary name in the same directory (PATH.part, or
+/// PATH.NUMBER-NUMBER.part while another is writing the same path) and gets its own name in `commit()`. Without commit,
+/// destruction removes it and leaves an earlier file untouched. What a killed program left under the temporary name is
+/// written over by the next who writes that path.
 class whole_file {
 public:
     /// Opens the temporary file. \throws std::runtime_error naming the path and the system's reason
     explicit whole_file(std::string path) : path_(std::move(path)), temporary_(path_ + ".part") {
-        file_ = std::fopen(temporary_.c_str(), "wb");
+        open();
         if (file_ == nullptr) fail("cannot write");
     }
     whole_file(whole_file const&) = delete;
     whole_file& operator=(whole_file const&) = delete;
     ~whole_file() {
+#if __has_include(<unistd.h>)
+        // Before it is closed: while the name is ours.
+        if (!committed_ && file_ != nullptr) std::remove(temporary_.c_str());
+        if (file_ != nullptr) std::fclose(file_);
+#else
         if (file_ != nullptr) std::fclose(file_);
         if (!committed_) std::remove(temporary_.c_str());
+#endif
     }
 
     std::FILE* handle() const noexcept { return file_; }
@@ -41,11 +66,25 @@ public:
     }
     /// Closes the file and gives it its name. \throws std::runtime_error when something was not written
     void commit() {
-        bool const sound = std::ferror(file_) == 0;
+        if (std::ferror(file_) != 0 || std::fflush(file_) != 0) fail("cannot write");
+#if __has_include(<unistd.h>)
+        // The temporary name stays ours until it is given up: a second handle holds it while the first is closed, which tells
+        // what some file systems say only then.
+        int const held = dup(fileno(file_));
         bool const closed = std::fclose(std::exchange(file_, nullptr)) == 0;
-        if (!sound || !closed) fail("cannot write");
-        if (std::rename(temporary_.c_str(), path_.c_str()) != 0) fail("cannot rename to");
+        bool const renamed = closed && std::rename(temporary_.c_str(), path_.c_str()) == 0;
+        int const reason = errno;
+        if (!renamed) std::remove(temporary_.c_str());
+        if (held >= 0) close(held);
+        errno = reason;
         committed_ = true;
+#else
+        bool const closed = std::fclose(std::exchange(file_, nullptr)) == 0;
+        bool const renamed = closed && std::rename(temporary_.c_str(), path_.c_str()) == 0;
+        committed_ = renamed;
+#endif
+        if (!closed) fail("cannot write");
+        if (!renamed) fail("cannot rename to");
     }
     /// As commit(), and the bytes and the name are on the disk when it returns: not lost when the power fails.
     void commit_to_disk() {
@@ -55,7 +94,7 @@ public:
         auto const slash = path_.find_last_of('/');
         std::string const folder = slash == std::string::npos ? "." : path_.substr(0, slash + 1);
         // Best effort: not every file system lets its folders be opened and synchronised.
-        if (int const opened = open(folder.c_str(), O_RDONLY); opened >= 0) {
+        if (int const opened = ::open(folder.c_str(), O_RDONLY | O_CLOEXEC); opened >= 0) {
             (void)fsync(opened);
             close(opened);
         }
@@ -65,9 +104,27 @@ public:
     }
 
 private:
-    [[noreturn]] void fail(char const* what) const {
-        throw std::runtime_error(std::string(what) + " " + path_ + ": " + std::strerror(errno));
+#if __has_include(<unistd.h>)
+    /// The system's lock on the temporary file tells a writer at work from what a killed one left.
+    void open() {
+        static std::atomic<unsigned> count{0};
+        for (;;) {
+            int const opened = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
+            if (opened < 0) return;
+            bool const free = flock(opened, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;
+            if (free && detail::is_at(opened, temporary_)) {
+                if (ftruncate(opened, 0) == 0) file_ = fdopen(opened, "wb");
+                if (file_ == nullptr) close(opened);
+                return;
+            }
+            close(opened);
+            if (!free) temporary_ = path_ + "." + std::to_string(getpid()) + "-" + std::to_string(++count) + ".part";
+        }
     }
+#else
+    void open() { file_ = std::fopen(temporary_.c_str(), "wb"); }
+#endif
+    [[noreturn]] void fail(char const* what) const { detail::fail_file(what, path_); }
 
     std::string path_;
     std::string temporary_;

@@ -23,6 +23,9 @@ namespace lacuna {
 /// 64-bit FNV-1a. Each step is a bijection of the sum so far: one changed byte always changes the result.
 class checksum {
 public:
+    checksum() = default;
+    /// Goes on from the sum of what came before.
+    explicit checksum(std::uint64_t before) noexcept : sum_(before) {}
     void add(void const* data, std::size_t size) noexcept {
         auto const* byte = static_cast<unsigned char const*>(data);
         for (std::size_t k = 0; k < size; ++k) sum_ = (sum_ ^ byte[k]) * 0x100000001b3u;

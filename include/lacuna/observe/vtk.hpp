@@ -13,7 +13,7 @@
 
 /// \file
 /// Files for ParaView and its kin: VTK's XML format for points, lines and polygons (.vtp) and for tetrahedra (.vtu), with
-/// appended data, raw or compressed (vtk_zlib.hpp), and series of them in time (.pvd). Written without VTK.
+/// appended data, raw or compressed (vtk_zlib.hpp), and series of them in time (vtk_collection.hpp). Written without VTK.
 
 namespace lacuna {
 
@@ -122,17 +122,6 @@ template <class Storage = vtk_raw>
 void save_vtk(std::string const& path, vtk_surface const& s, Storage const& storage = {}) {
     whole_file file(path);
     file.write(vtk_text(s, storage));
-    file.commit();
-}
-
-/// Writes a .pvd file: what stands where in time.
-/// \param frames time in s, and name of a file relative to the .pvd file
-inline void save_vtk_series(std::string const& path, std::vector<std::pair<double, std::string>> const& frames) {
-    std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\">\n<Collection>\n";
-    for (auto const& [time, name] : frames)
-        text += "<DataSet timestep=\"" + to_text(time) + "\" file=\"" + name + "\"/>\n";
-    whole_file file(path);
-    file.write(text + "</Collection>\n</VTKFile>\n");
     file.commit();
 }
 

@@ -2,38 +2,59 @@
 #pragma once
 
 #include <string>
-#include <utility>
-#include <vector>
 
 #include <lacuna/observe/frame_series.hpp>
+#include <lacuna/observe/vtk_collection.hpp>
 #include <lacuna/observe/vtk_scenes.hpp>
 
 namespace lacuna {
 
 /// Writes frames for ParaView: PREFIX-particles-STEP.vtp, -bonds- where there are bonds, -pores- where there is fluid
-/// (.vtu in space), and a series in time of each, PREFIX-particles.pvd and so on. Each file appears whole or not at all.
+/// (.vtu in space), and a series in time of each, PREFIX-particles.pvd and so on. Each file appears whole or not at all, and
+/// a series grows. At the first step a series begins anew; a run that is resumed keeps what its series says of the time before.
 /// \tparam Storage vtk_raw or vtk_zlib
 template <class Storage = vtk_raw>
 class vtk_frames {
 public:
     template <class Simulation>
     void write(Simulation const& sim, std::string const& prefix, std::string const& number) {
-        auto const save = [&](char const* what, vtk_surface const& scene, auto& frames) {
+        auto const save = [&](char const* what, vtk_surface const& scene, growing_file& series) {
             std::string const name = prefix + "-" + what;
             save_vtk(name + "-" + number + scene.ending(), scene, Storage{});
+            if (!series.has_begun()) {
+                series = vtk_collection(name + ".pvd");
+                series.begin();
+            }
             auto const slash = name.find_last_of('/');
-            frames.emplace_back(sim.time(), name.substr(slash == std::string::npos ? 0 : slash + 1) + "-" + number + scene.ending());
-            save_vtk_series(name + ".pvd", frames);
+            auto const file = name.substr(slash == std::string::npos ? 0 : slash + 1) + "-" + number + scene.ending();
+            series.add(vtk_collection_entry(sim.time(), file));
+            series.flush();
         };
         save("particles", vtk_particles(sim), particles_);
         if (!sim.pairs().bond_records().empty()) save("bonds", vtk_bonds(sim), bonds_);
         if constexpr (requires { sim.flow().network(); })
             if (sim.filled()) save("pores", vtk_pores(sim), pores_);
     }
+    /// Cuts the series that are there back to the present time.
+    template <class Simulation>
+    series_part resume(Simulation const& sim, std::string const& prefix) {
+        auto const cut = [&](char const* what, growing_file& series) {
+            std::string const path = prefix + "-" + what + ".pvd";
+            auto const [mark, last] = vtk_collection_until(path, sim.time());
+            series = {};
+            if (mark.bytes == 0) return series_part{};
+            series = vtk_collection(path);
+            series.resume(mark);
+            return series_part{true, last == sim.time()};
+        };
+        auto const part = cut("particles", particles_);
+        cut("bonds", bonds_);
+        cut("pores", pores_);
+        return part;
+    }
 
 private:
-    using series = std::vector<std::pair<double, std::string>>;
-    series particles_, bonds_, pores_;
+    growing_file particles_, bonds_, pores_;
 };
 
 /// Observer that writes VTK files of a run.
