@@ -11,6 +11,7 @@
 #include <lacuna/core/error.hpp>
 #include <lacuna/observe/canvas_file.hpp>
 #include <lacuna/observe/checkpoint_file.hpp>
+#include <lacuna/observe/directory_lock.hpp>
 
 #include "code_version.hpp"
 
@@ -43,6 +44,9 @@ result_cache::result_cache(std::string const& directory) : directory_(directory)
     std::error_code error;
     fs::create_directories(directory_, error);
     if (error) throw usage_error("cache directory " + directory_ + ": " + error.message());
+    lacuna::remove_unfinished_files(directory_, [](std::string_view name) {
+        return name == ".cartilage-probe" || (name.size() > 5 && name.substr(name.size() - 5) == ".json");
+    });
     try {
         lacuna::whole_file probe((fs::path(directory_) / ".cartilage-probe").string());
     } catch (std::runtime_error const&) {

@@ -11,9 +11,11 @@
 #include <CLI/CLI.hpp>
 
 #include <lacuna/core/error.hpp>
+#include <lacuna/observe/stop_signal.hpp>
 
 #include "calibrate_report.hpp"
 #include "output.hpp"
+#include "simulate.hpp"
 #include "study.hpp"
 #include "words.hpp"
 
@@ -84,7 +86,9 @@ std::optional<calibrate_options> parse_calibrate_command_line(int argc, char con
 }
 
 int calibrate(calibrate_options const& o) {
-    output_directory out(o.study.out, o.study.force);
+    lacuna::run_directory out(o.study.out, "--out", calibration_results(), 
+                              unfinished_mark::earlier(o.study.out, "calibrate", o.study.force));
+    unfinished_mark const mark(out, "calibrate");
     auto base = requests_of(o.study);
     for (packing_request& r : base)
         // Loads of the paper are where a good set has its answers.
@@ -107,6 +111,9 @@ int calibrate(calibrate_options const& o) {
             set.targets = targets_of(packings);
             set.first_layers = first_layers_of(packings);
             set.misfit = misfit_of(set.targets);
+        } catch (interruption const&) {
+            mark.stopped_by(lacuna::stop_signal());
+            throw;
         } catch (std::invalid_argument const& bad) {
             set.misfit = std::numeric_limits<double>::quiet_NaN();
             set.why = bad.what();
@@ -120,8 +127,9 @@ int calibrate(calibrate_options const& o) {
     request.free = o.free;
     request.evaluations = o.evaluations;
     auto const tried = calibrate(request, misfit);
-    out.keep();
+    mark.begin_results();
     write_calibration(o.study.out, o, sets, best_of(tried));
+    mark.end();
     if (!o.study.quiet) {
         print_best(stdout, sets[best_of(tried)]);
         for (char const* name : {"calibration.html", "calibration.csv", "calibration.json", "best.choices"})

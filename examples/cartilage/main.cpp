@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <stdexcept>
@@ -7,6 +6,7 @@
 
 #include <lacuna/core/error.hpp>
 #include <lacuna/observe/picture.hpp>
+#include <lacuna/observe/stop_signal.hpp>
 
 #include "calibrate.hpp"
 #include "options.hpp"
@@ -18,25 +18,22 @@
 
 namespace {
 
-enum exit_status { done = 0, failed = 1, bad_request = 2, unstable = 3, interrupted = 130 };
+enum exit_status { done = 0, failed = 1, bad_request = 2, unstable = 3 };
 
-extern "C" void on_signal(int) { cartilage::request_stop(); }
+/// As a shell names the end by a signal.
+int interrupted() { return 128 + lacuna::stop_signal(); }
 
-void catch_signals() {
-    struct sigaction action {};
-    action.sa_handler = on_signal;
-    // The second signal meets the system's own handler: a run that does not stop can still be ended.
-    action.sa_flags = static_cast<int>(SA_RESETHAND);
-    sigaction(SIGINT, &action, nullptr);
-    sigaction(SIGTERM, &action, nullptr);
+lacuna::run_directory directory_of(cartilage::options const& o) {
+    return {o.out, "--out", cartilage::run_results(),
+            o.force ? lacuna::earlier_results::replace : lacuna::earlier_results::refuse};
 }
 
-void say_where(cartilage::output_directory const& out, std::initializer_list<char const*> names) {
+void say_where(lacuna::run_directory const& out, std::initializer_list<char const*> names) {
     for (char const* name : names) std::printf("%s\n", out.file(name).c_str());
 }
 
 int pack(cartilage::options const& o) {
-    cartilage::output_directory out(o.out, o.force);
+    lacuna::run_directory out = directory_of(o);
     cartilage::specimen const specimen = cartilage::build_specimen(o);
     cartilage::specimen_report const report = cartilage::report_of(specimen);
     out.keep();
@@ -48,41 +45,40 @@ int pack(cartilage::options const& o) {
 }
 
 int run(cartilage::options const& o) {
-    cartilage::output_directory out(o.out, o.force);
-    catch_signals();
+    lacuna::watch_stop_signals();
+    lacuna::run_directory out = directory_of(o);
     cartilage::specimen const specimen = cartilage::build_specimen(o);
     lacuna::scene damage;
     cartilage::run_result const result = cartilage::simulate(specimen, o, out, o.quiet ? nullptr : stderr, damage);
     lacuna::save_packing(out.file("packing"), cartilage::scene_of(specimen, o));
     lacuna::save_damage(out.file("damage"), damage);
-    cartilage::write_cracks(out.file("cracks.csv"), result);
     // Last, because its presence says that the run is finished.
     cartilage::write_summary(out.file("summary.json"), o, result);
     if (!o.quiet) {
         cartilage::print_result(stdout, o, result);
         say_where(out, {"packing.png", "packing.svg", "damage.png", "damage.svg", "cracks.csv", "summary.json"});
     }
-    return result.interrupted ? interrupted : done;
+    return result.interrupted ? interrupted() : done;
 }
 
 int study(int argc, char** argv) {
     auto const o = cartilage::parse_study_command_line(argc, argv);
     if (!o) return done;
-    catch_signals();
+    lacuna::watch_stop_signals();
     return cartilage::study(*o);
 }
 
 int sensitivity(int argc, char** argv) {
     auto const o = cartilage::parse_sensitivity_command_line(argc, argv);
     if (!o) return done;
-    catch_signals();
+    lacuna::watch_stop_signals();
     return cartilage::sensitivity(*o);
 }
 
 int calibrate(int argc, char** argv) {
     auto const o = cartilage::parse_calibrate_command_line(argc, argv);
     if (!o) return done;
-    catch_signals();
+    lacuna::watch_stop_signals();
     return cartilage::calibrate(*o);
 }
 
@@ -103,8 +99,9 @@ int main(int argc, char** argv) {
         std::fprintf(stderr, "cartilage: %s\n", bad.what());
         return bad_request;
     } catch (cartilage::interruption const&) {
-        std::fprintf(stderr, "cartilage: interrupted; the same command goes on from here\n");
-        return interrupted;
+        std::fprintf(stderr, "cartilage: stopped by %s; the same command goes on from here\n",
+                     lacuna::signal_name(lacuna::stop_signal()).c_str());
+        return interrupted();
     } catch (lacuna::unstable_run const& bad) {
         std::fprintf(stderr, "cartilage: %s\n", bad.what());
         return unstable;

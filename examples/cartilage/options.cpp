@@ -72,7 +72,7 @@ std::optional<options> parse_command_line(int argc, char const* const* argv) {
     words w;
     CLI::App app("Articular cartilage under load: a bonded-particle model with pore fluid, after Hong, Evans and "
                  "Mente.\nResults go into a directory: summary.json, cracks.csv, pictures as PNG and SVG.\n"
-                 "Exit status: 0 done, 2 bad request, 3 run became unstable, 130 interrupted.",
+                 "Exit status: 0 done, 2 bad request, 3 run became unstable, 128 + number of a signal that stopped it.",
                  "cartilage");
     app.set_version_flag("--version", version_text);
     app.require_subcommand(1);

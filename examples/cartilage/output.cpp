@@ -3,28 +3,21 @@
 
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <system_error>
 
 #include <lacuna/core/text.hpp>
 #include <lacuna/observe/canvas_file.hpp>
 #include <lacuna/observe/progress.hpp>
+#include <lacuna/observe/stop_signal.hpp>
 
 #include "json.hpp"
+#include "sensitivity_report.hpp"
+#include "study_report.hpp"
 
 namespace cartilage {
 
-namespace fs = std::filesystem;
-
 namespace {
-
-bool is_result(std::string const& name) {
-    for (char const* known : {"summary.json", "statistics.json", "cracks.csv", "packing.png", "packing.svg",
-                              "damage.png", "damage.svg"})
-        if (name == known) return true;
-    std::string const ending = name.size() < 4 ? "" : name.substr(name.size() - 4);
-    bool const picture = (ending == ".png" || ending == ".svg") && name.rfind("damage-", 0) == 0;
-    return picture && name.find_first_not_of("0123456789", 7) == name.size() - 4;
-}
 
 void write_whole(std::string const& path, std::string const& text) {
     lacuna::whole_file file(path);
@@ -57,50 +50,59 @@ std::string number(char const* format, double v) { return lacuna::formatted(form
 
 } // namespace
 
-output_directory::output_directory(std::string const& path, bool force) : path_(path) {
-    auto const cannot = [&](std::string const& why) {
-        for (auto it = created_.rbegin(); it != created_.rend(); ++it) {
-            std::error_code ignored;
-            fs::remove(*it, ignored);
-        }
-        throw usage_error("--out " + path + ": " + why);
-    };
+std::vector<std::string> run_results() {
+    return {"summary.json", "statistics.json", "cracks.csv", "packing.png", "packing.svg", "damage.png", "damage.svg", "damage-#.png",
+            "damage-#.svg"};
+}
+
+std::vector<std::string> study_results() {
+    auto names = report_files();
+    names.push_back("study.json");
+    return names;
+}
+
+std::vector<std::string> sensitivity_results() {
+    std::vector<std::string> names{"sensitivity.csv", "sensitivity.html"};
+    for (auto const zone : all_zones)
+        for (threshold const what : all_thresholds)
+            for (char const* ending : {".png", ".svg"}) names.push_back(tornado_stem(zone, what) + ending);
+    return names;
+}
+
+std::vector<std::string> calibration_results() { return {"calibration.html", "calibration.csv", "calibration.json", "best.choices"}; }
+
+unfinished_mark::unfinished_mark(lacuna::run_directory& out, std::string const& command) : out_(out), command_(command) {
+    // Results that are there stay until there are new ones: then they are finished, and no mark belongs beside them.
+    if (out.results().empty() || is_there()) write("not yet");
+}
+
+lacuna::earlier_results unfinished_mark::earlier(std::string const& directory, std::string const& command, bool force) {
     std::error_code error;
-    for (char const* finished : {"summary.json", "statistics.json"})
-        if (!force && fs::exists(path_ / finished, error))
-            cannot(std::string("holds the results of a finished run (") + finished + "); --force replaces them");
-    std::vector<fs::path> missing;
-    for (fs::path p = path_; !p.empty() && !fs::exists(p, error); p = p.parent_path()) {
-        if (error) cannot(error.message());
-        if (p.has_filename()) missing.push_back(p);
-        if (p == p.parent_path()) break;
-    }
-    for (auto it = missing.rbegin(); it != missing.rend(); ++it) {
-        if (!fs::create_directory(*it, error)) cannot(error ? error.message() : "cannot be created");
-        created_.push_back(*it);
-    }
-    if (!fs::is_directory(path_, error)) cannot("is not a directory");
-    try {
-        // Permissions do not tell everything (read-only file systems, quotas): only writing does.
-        lacuna::whole_file probe(file(".cartilage-probe"));
-    } catch (std::runtime_error const&) {
-        cannot("cannot be written");
-    }
+    return force || std::filesystem::exists(std::filesystem::path(directory) / name_of(command), error)
+               ? lacuna::earlier_results::replace
+               : lacuna::earlier_results::refuse;
 }
 
-output_directory::~output_directory() {
-    if (kept_) return;
-    std::error_code ignored;
-    for (auto it = created_.rbegin(); it != created_.rend(); ++it) fs::remove(*it, ignored);
+bool unfinished_mark::is_there() const {
+    std::error_code error;
+    return std::filesystem::exists(out_.file(name_of(command_)), error);
 }
 
-void output_directory::keep() {
-    if (kept_) return;
-    kept_ = true;
-    std::vector<fs::path> old;
-    for (auto const& entry : fs::directory_iterator(path_))
-        if (entry.is_regular_file() && is_result(entry.path().filename().string())) old.push_back(entry.path());
-    for (fs::path const& p : old) fs::remove(p);
+void unfinished_mark::begin_results() const {
+    write("not yet");
+    out_.keep();
+}
+
+void unfinished_mark::stopped_by(int signal) const {
+    if (is_there()) write("stopped by " + lacuna::signal_name(signal));
+}
+
+void unfinished_mark::write(std::string const& ended) const {
+    out_.stay();
+    json_writer json;
+    json.open('{').value("command", command_).value("ended", ended);
+    json.value("message", "the same command goes on from the runs that are kept").close('}');
+    write_whole(out_.file(name_of(command_)), json.text());
 }
 
 void write_summary(std::string const& path, options const& o, run_result const& r) {
@@ -154,17 +156,15 @@ void write_summary(std::string const& path, options const& o, run_result const& 
     write_whole(path, json.text());
 }
 
-void write_cracks(std::string const& path, run_result const& r) {
-    std::string text = "step,time_s,bond,first,second,fibre,mode,x_m,y_m,normal_force_N,shear_force_N,energy_J\n";
-    for (crack_record const& c : r.cracks) {
-        text.append(std::to_string(c.step)).append(1, ',').append(lacuna::to_text(c.time));
-        for (int number : {c.bond, c.first, c.second, c.fibre}) text.append(1, ',').append(std::to_string(number));
-        text += c.shear ? ",shear" : ",tension";
-        for (double v : {c.position[0], c.position[1], c.normal_force, c.shear_force, c.energy})
-            text.append(1, ',').append(lacuna::to_text(v));
-        text += "\n";
-    }
-    write_whole(path, text);
+std::string crack_heading() { return "step,time_s,bond,first,second,fibre,mode,x_m,y_m,normal_force_N,shear_force_N,energy_J\n"; }
+
+std::string crack_line(crack_record const& c) {
+    std::string text = std::to_string(c.step) + "," + lacuna::to_text(c.time);
+    for (int number : {c.bond, c.first, c.second, c.fibre}) text.append(1, ',').append(std::to_string(number));
+    text += c.shear ? ",shear" : ",tension";
+    for (double v : {c.position[0], c.position[1], c.normal_force, c.shear_force, c.energy})
+        text.append(1, ',').append(lacuna::to_text(v));
+    return text + "\n";
 }
 
 void write_statistics(std::string const& path, options const& o, specimen_report const& s) {

@@ -40,7 +40,7 @@ struct pool_options {
 };
 
 /// The loads of all packings, in the order of the requests; the same whatever the number of jobs and whatever was kept.
-/// \throws interruption when request_stop() was called, after what was finished has been kept
+/// \throws interruption when a signal asks to stop, after what was finished has been kept
 /// \throws std::invalid_argument when a specimen or model cannot be built
 std::vector<packing_result> run_packings(std::vector<packing_request> const& requests, pool_options const& how);
 

@@ -18,7 +18,7 @@ class probe_run {
 public:
     virtual ~probe_run() = default;
     /// Goes on until the answer is certain. Where the run turns out not to count, `invalid` of the result says why.
-    /// \throws interruption when request_stop() was called
+    /// \throws interruption when a signal asks to stop
     virtual probe ask(question q) = 0;
 };
 

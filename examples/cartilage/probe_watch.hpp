@@ -147,7 +147,7 @@ public:
 
     template <class Simulation>
     lacuna::run_control on_step(Simulation const& sim) {
-        if (stop_is_requested()) throw interruption();
+        if (lacuna::stop_signal() != 0) throw interruption();
         // With every break, whether the run halts there or not: it must not leave a trace in the result.
         if (broke_ || sim.steps() % between_looks == 0) look_at_pores(sim);
         broke_ = false;

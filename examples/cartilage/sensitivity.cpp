@@ -11,9 +11,11 @@
 
 #include <lacuna/core/error.hpp>
 #include <lacuna/observe/canvas_file.hpp>
+#include <lacuna/observe/stop_signal.hpp>
 
 #include "output.hpp"
 #include "sensitivity_report.hpp"
+#include "simulate.hpp"
 #include "study.hpp"
 #include "words.hpp"
 
@@ -97,7 +99,8 @@ std::optional<sensitivity_options> parse_sensitivity_command_line(int argc, char
 }
 
 int sensitivity(sensitivity_options const& o) {
-    output_directory out(o.study.out, o.study.force);
+    lacuna::run_directory out(o.study.out, "--out", sensitivity_results(), 
+                              unfinished_mark::earlier(o.study.out, "sensitivity", o.study.force));
     auto variations = variations_of(o);
     if (variations.empty()) throw usage_error("--only: nothing to vary from this base");
     auto const base = requests_of(o.study);
@@ -113,15 +116,23 @@ int sensitivity(sensitivity_options const& o) {
     how.jobs = o.study.jobs;
     how.cache = o.study.cache;
     how.progress = o.study.quiet ? nullptr : stderr;
-    auto const results = run_packings(requests, how);
+    unfinished_mark const mark(out, "sensitivity");
+    std::vector<packing_result> results;
+    try {
+        results = run_packings(requests, how);
+    } catch (interruption const&) {
+        mark.stopped_by(lacuna::stop_signal());
+        throw;
+    }
     auto const group = [&](std::size_t k) {
         auto const first = results.begin() + std::ptrdiff_t(k * base.size());
         return std::vector<packing_result>(first, first + std::ptrdiff_t(base.size()));
     };
     std::vector<packing_result> const plain = group(0);
     for (std::size_t k = 0; k < variations.size(); ++k) variations[k].changes = compare(plain, group(k + 1));
-    out.keep();
+    mark.begin_results();
     write_sensitivity(o.study.out, o.study, plain, variations);
+    mark.end();
     if (!o.study.quiet) {
         print_sensitivity(stdout, variations);
         std::printf("%s\n%s\n", out.file("sensitivity.csv").c_str(), out.file("sensitivity.html").c_str());

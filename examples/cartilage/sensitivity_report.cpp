@@ -50,10 +50,7 @@ std::string label_of(variation const& v) { return std::string(v.field->name) + "
 
 figure draw(std::string const& directory, std::vector<variation> const& variations, lacuna::cartilage_zone zone,
             threshold what) {
-    std::string load = name_of(what);
-    std::replace(load.begin(), load.end(), ' ', '-');
-    figure f{"sensitivity-" + std::string(lacuna::to_string(zone)) + "-" + load, zone_title(zone) + ", " + name_of(what),
-             "", false};
+    figure f{tornado_stem(zone, what), zone_title(zone) + ", " + name_of(what), "", false};
     std::vector<lacuna::tornado_row> rows;
     double low = -20, high = 20;
     auto const cut = [](double percent) { return std::clamp(percent, -100.0, furthest); };
@@ -86,6 +83,12 @@ figure draw(std::string const& directory, std::vector<variation> const& variatio
 }
 
 } // namespace
+
+std::string tornado_stem(lacuna::cartilage_zone zone, threshold what) {
+    std::string load = name_of(what);
+    std::replace(load.begin(), load.end(), ' ', '-');
+    return "sensitivity-" + std::string(lacuna::to_string(zone)) + "-" + load;
+}
 
 std::string sensitivity_csv(std::vector<variation> const& variations, choices const& base) {
     std::string text = "choice,unit,base,value,zone,load,pairs,base_median_MPa,median_MPa,change_percent,low_percent,"

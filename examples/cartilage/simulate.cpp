@@ -3,14 +3,15 @@
 
 #include <algorithm>
 #include <chrono>
-#include <csignal>
 #include <cstdio>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include <lacuna/observe/growing_file.hpp>
 #include <lacuna/observe/picture.hpp>
 #include <lacuna/observe/progress.hpp>
+#include <lacuna/observe/stop_signal.hpp>
 
 #include "aftermath.hpp"
 #include "cartilage_model.hpp"
@@ -21,21 +22,20 @@ namespace cartilage {
 
 namespace {
 
-volatile std::sig_atomic_t stop_requested = 0;
-
 /// Watches a run: keeps its cracks, its largest pressure, its progress and pictures, and says when it is over.
 class watch {
 public:
     static constexpr lacuna::stage stages = lacuna::stage::start | lacuna::stage::step | lacuna::stage::breakage;
     static constexpr bool needs_energy = true;
 
-    watch(specimen const& s, options const& o, output_directory& out, lacuna::progress_options const& progress,
+    watch(specimen const& s, options const& o, lacuna::run_directory& out, lacuna::progress_options const& progress,
           ending& end, run_result& result)
-        : specimen_(s), options_(o), out_(out), progress_(progress), ending_(end), result_(result) {}
+        : specimen_(s), options_(o), out_(out), log_(out.file("cracks.csv"), crack_heading()), progress_(progress), ending_(end), result_(result) {}
 
     template <class Event, class Simulation>
     void on_break(Event const& event, Simulation const&) {
         result_.cracks.push_back(crack_of(specimen_, event));
+        log_.add(crack_line(result_.cracks.back()));
     }
 
     template <class Simulation>
@@ -50,11 +50,10 @@ public:
         if (options_.picture_every > 0 && sim.steps() % options_.picture_every == 0) {
             char name[40];
             std::snprintf(name, sizeof name, "damage-%09lld", sim.steps());
-            out_.keep();
             lacuna::save_damage(out_.file(name), picture_of(sim, specimen_, options_, result_.cracks));
         }
         progress_.update(sim.steps(), "broken " + std::to_string(result_.cracks.size()));
-        if (stop_requested != 0) {
+        if (lacuna::stop_signal() != 0) {
             result_.interrupted = true;
             result_.ended = "interrupted";
             return lacuna::run_control::stop;
@@ -68,21 +67,26 @@ public:
     void on_start(Simulation const& sim) {
         result_.time_step = sim.time_step();
         result_.time_step_limit = sim.limits().critical();
+        out_.keep();
+        log_.begin();
     }
 
+    /// All cracks are in the file: also of a run that is unstable.
+    void flush() { log_.flush(); }
     void finish(long long steps) { progress_.finish(steps, "broken " + std::to_string(result_.cracks.size())); }
 
 private:
     specimen const& specimen_;
     options const& options_;
-    output_directory& out_;
+    lacuna::run_directory& out_;
+    lacuna::growing_file log_;
     lacuna::progress_reporter<> progress_;
     ending& ending_;
     run_result& result_;
 };
 
 template <class Model>
-run_result follow(specimen const& s, options const& o, output_directory& out, std::FILE* progress,
+run_result follow(specimen const& s, options const& o, lacuna::run_directory& out, std::FILE* progress,
                   lacuna::scene& damage) {
     auto const loaded = load_specimen<Model>(s, o);
     lacuna::simulation<Model>& sim = *loaded;
@@ -101,10 +105,15 @@ run_result follow(specimen const& s, options const& o, output_directory& out, st
     watch observer(s, o, out, speak, end, result);
 
     auto const start = std::chrono::steady_clock::now();
-    sim.run(speak.steps, observer);
+    try {
+        sim.run(speak.steps, observer);
+    } catch (lacuna::unstable_run const&) {
+        observer.flush();
+        throw;
+    }
+    observer.flush();
     result.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     observer.finish(sim.steps());
-    out.keep();
 
     result.steps = sim.steps();
     result.end_time = sim.time();
@@ -127,10 +136,7 @@ run_result follow(specimen const& s, options const& o, output_directory& out, st
 
 } // namespace
 
-void request_stop() noexcept { stop_requested = 1; }
-bool stop_is_requested() noexcept { return stop_requested != 0; }
-
-run_result simulate(specimen const& s, options const& o, output_directory& out, std::FILE* progress,
+run_result simulate(specimen const& s, options const& o, lacuna::run_directory& out, std::FILE* progress,
                     lacuna::scene& damage) {
     return visit_model(o.open, o.dry, [&]<class Model>(std::type_identity<Model>) {
         return follow<Model>(s, o, out, progress, damage);

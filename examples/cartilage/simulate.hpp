@@ -11,21 +11,18 @@
 
 namespace cartilage {
 
-/// Asks all runs to end after their current step; safe to call from a signal handler.
-void request_stop() noexcept;
-bool stop_is_requested() noexcept;
-
-/// Work that was ended by request_stop() before it had a result.
+/// Work that was ended by a signal (lacuna::stop_signal()) before it had a result.
 class interruption : public std::runtime_error {
 public:
     interruption() : std::runtime_error("interrupted") {}
 };
 
 /// Loads the specimen and follows it to the end, with progress on `progress` (null: silent) and pictures on the way
-/// into `out`, as the command line asks. `damage` receives the scene at the end.
+/// into `out`, as the command line asks, where cracks.csv grows. `damage` receives the scene at the end, which is after the
+/// present step once a signal has come.
 /// \throws std::invalid_argument before the first step when the model cannot be built
 /// \throws lacuna::unstable_run
-run_result simulate(specimen const& s, options const& o, output_directory& out, std::FILE* progress,
+run_result simulate(specimen const& s, options const& o, lacuna::run_directory& out, std::FILE* progress,
                     lacuna::scene& damage);
 
 } // namespace cartilage

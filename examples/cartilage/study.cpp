@@ -13,6 +13,7 @@
 
 #include <lacuna/observe/canvas_file.hpp>
 #include <lacuna/observe/progress.hpp>
+#include <lacuna/observe/stop_signal.hpp>
 
 #include "cache.hpp"
 #include "output.hpp"
@@ -139,14 +140,16 @@ void print_study(std::FILE* out, study_result const& study) {
 }
 
 /// Writes the results of a study; the report only of a whole one.
-void write_study(study_options const& o, output_directory& out, study_result const& study, bool whole) {
-    out.keep();
+void write_study(study_options const& o, lacuna::run_directory& out, study_result const& study, bool whole) {
+    unfinished_mark const mark(out, "study");
+    mark.begin_results();
     if (!o.quiet) print_study(stdout, study);
     if (whole) write_report(o.out, study);
     // Last, because its presence says that the study is finished.
     lacuna::whole_file file(out.file(result_name));
     file.write(text_of(study));
     file.commit();
+    mark.end();
     if (o.quiet) return;
     if (whole) std::printf("%s\n", out.file("report.html").c_str());
     std::printf("%s\n", out.file(result_name).c_str());
@@ -174,7 +177,7 @@ int merge(study_options const& o) {
                               std::to_string(whole.packings[k].seed) + " is in two of the parts");
     std::stable_sort(whole.snapshots.begin(), whole.snapshots.end(),
                      [](auto const& a, auto const& b) { return a.figure < b.figure; });
-    output_directory out(o.out, o.force);
+    lacuna::run_directory out(o.out, "--out", study_results(), lacuna::earlier_results::replace);
     if (!o.force) refuse_other_study(o.out, whole);
     write_study(o, out, whole, true);
     return 0;
@@ -200,8 +203,10 @@ std::vector<packing_request> requests_of(study_options const& o) {
 int study(study_options const& o) {
     if (!o.merge.empty()) return merge(o);
     study_result result = frame_of(o);
-    output_directory out(o.out, o.force);
+    // Results of the same study give way to the new ones once these are there.
+    lacuna::run_directory out(o.out, "--out", study_results(), lacuna::earlier_results::replace);
     if (!o.force) refuse_other_study(o.out, result);
+    unfinished_mark const mark(out, "study");
     pool_report report;
     pool_options how;
     how.jobs = o.jobs;
@@ -214,7 +219,12 @@ int study(study_options const& o) {
     std::atomic<std::size_t> kept{0};
     for (std::size_t k = 0; k < pictures.size(); ++k)
         how.further.emplace_back([&, k] { kept += find_snapshot(o, cache, pictures[k], result.snapshots[k]); });
-    result.packings = run_packings(requests_of(o), how);
+    try {
+        result.packings = run_packings(requests_of(o), how);
+    } catch (interruption const&) {
+        mark.stopped_by(lacuna::stop_signal());
+        throw;
+    }
     report.runs += pictures.size() - kept;
     report.probes_kept += kept;
     write_study(o, out, result, o.shards == 1);

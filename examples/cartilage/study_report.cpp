@@ -31,6 +31,18 @@ void check(study_result const& study) {
 
 /// Removes what an earlier report left: it may have had figures that this one does not.
 void clear_report(std::string const& directory) {
+    for (std::string const& name : report_files()) std::filesystem::remove(directory + "/" + name);
+}
+
+void write_whole(std::string const& path, std::string const& text) {
+    lacuna::whole_file file(path);
+    file.write(text);
+    file.commit();
+}
+
+} // namespace
+
+std::vector<std::string> report_files() {
     std::vector<std::string> names{"report.html", "table3.csv"};
     auto const add = [&](std::string const& stem) {
         for (char const* ending : {".png", ".svg"}) names.push_back(stem + ending);
@@ -41,16 +53,8 @@ void clear_report(std::string const& directory) {
             add(stem + std::string(lacuna::to_string(zone)));
     for (char const* number : {"10", "11", "12"})
         for (char const* stem : {"figure-", "fronts-"}) add(std::string(stem) + number);
-    for (std::string const& name : names) std::filesystem::remove(directory + "/" + name);
+    return names;
 }
-
-void write_whole(std::string const& path, std::string const& text) {
-    lacuna::whole_file file(path);
-    file.write(text);
-    file.commit();
-}
-
-} // namespace
 
 void write_report(std::string const& directory, study_result const& study) {
     check(study);

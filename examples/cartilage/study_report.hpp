@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "study_result.hpp"
 
@@ -13,5 +14,8 @@ namespace cartilage {
 /// \throws std::invalid_argument for a result without packings, or with numbers out of range
 /// \throws std::runtime_error when a file cannot be written
 void write_report(std::string const& directory, study_result const& study);
+
+/// Names of all files that a report may have.
+std::vector<std::string> report_files();
 
 } // namespace cartilage

@@ -27,6 +27,7 @@ void add_size(outcome& o, Simulation const& sim) {
 
 /// Error of the whole curve: the largest of its points' relative ones.
 void add_worst(outcome& o, std::string const& name, outcome_curve const& c) {
+    if (c.points.empty()) return; // stopped before the first one
     outcome_curve::point worst = c.points.front();
     auto const error = [](outcome_curve::point const& p) { return std::fabs(p.value / p.reference - 1); };
     for (auto const& p : c.points)
@@ -51,19 +52,21 @@ outcome run_terzaghi(bool quick) {
     o.x_label = "T = c t / H²";
     outcome_curve settlement{"degree of consolidation U", {}}, base{"pressure at the base / load", {}};
     for (double const time : logarithmic_times(0.01, 1, 41)) {
-        while (column.time() < time * (1 - 1e-9)) {
+        while (o.goes_on() && column.time() < time * (1 - 1e-9)) {
             column.sim().step();
             fluid.enter(column.sim().flow().network(), column.sim().time_step());
         }
+        if (column.sim().steps() == 0) break;
         double const now = column.time(), u = column.consolidation_degree();
         settlement.points.push_back({now, u, 1 - exact.mean(now)});
         base.points.push_back({now, layer_pressure(column.sim(), column.body(), 0) / column.load(),
                                exact.pressure(0, now)});
         for (double const named : {0.01, 0.1, 1.0})
-            if (std::fabs(time - named) < 1e-9 * named)
+            if (!o.stopped && std::fabs(time - named) < 1e-9 * named)
                 o.add("U(T=" + text("%g", named) + ")", u, settlement.points.back().reference);
         if (o.field.pores.empty() && time > 0.19)
             o.field = field_of(column.sim(), setup.medium.radius / 2, text("T = %.2f", now));
+        if (o.stopped) break;
     }
     add_worst(o, "U_worst", settlement);
     add_worst(o, "base_pressure_worst", base);
@@ -90,7 +93,7 @@ outcome run_mandel(bool quick) {
     outcome_curve middle{"pressure in the middle / undrained pressure", {}};
     double highest = 0, when = 0;
     for (double const time : logarithmic_times(0.02, quick ? 0.2 : 0.3, 33)) {
-        while (slab.time() < time * (1 - 1e-9)) {
+        while (o.goes_on() && slab.time() < time * (1 - 1e-9)) {
             slab.step();
             fluid.enter(slab.sim().flow().network(), slab.sim().time_step());
             if (slab.sim().steps() % 20 != 0 || slab.time() < 0.02) continue;
@@ -101,10 +104,14 @@ outcome run_mandel(bool quick) {
                 o.field = field_of(slab.sim(), setup.medium.radius / 2, text("T = %.3f: the peak", when));
             }
         }
+        if (slab.sim().steps() == 0) break;
         middle.points.push_back({slab.time(), slab.middle_pressure(), exact.pressure(0, slab.time())});
+        if (o.stopped) break;
     }
-    o.add("peak_pressure", highest, exact.peak().pressure);
-    o.add("peak_time", when, exact.peak().time);
+    if (!o.stopped) {
+        o.add("peak_pressure", highest, exact.peak().pressure);
+        o.add("peak_time", when, exact.peak().time);
+    }
     add_worst(o, "middle_pressure_worst", middle);
     add_mass(o, fluid);
     o.curves = {middle};
@@ -129,7 +136,7 @@ outcome run_cryer(bool quick) {
     outcome_curve middle{"pressure in the middle / load", {}};
     double highest = 0, when = 0;
     for (double const time : logarithmic_times(0.005, quick ? 0.1 : 0.3, 34)) {
-        while (disc.time() < time * (1 - 1e-9)) {
+        while (o.goes_on() && disc.time() < time * (1 - 1e-9)) {
             disc.sim().step();
             fluid.enter(disc.sim().flow().network(), disc.sim().time_step());
             double const p = disc.middle_pressure();
@@ -137,11 +144,15 @@ outcome run_cryer(bool quick) {
             highest = p;
             when = disc.time();
         }
+        if (disc.sim().steps() == 0) break;
         middle.points.push_back({disc.time(), disc.middle_pressure(), exact.pressure(0, disc.time())});
         if (disc.time() < 0.07) o.field = field_of(disc.sim(), 0, text("T = %.3f", disc.time()));
+        if (o.stopped) break;
     }
-    o.add("peak_pressure", highest, exact.peak().pressure);
-    o.add("peak_time", when, exact.peak().time);
+    if (!o.stopped) {
+        o.add("peak_pressure", highest, exact.peak().pressure);
+        o.add("peak_time", when, exact.peak().time);
+    }
     add_worst(o, "middle_pressure_worst", middle);
     add_mass(o, fluid);
     o.curves = {middle};
@@ -159,7 +170,11 @@ outcome run_darcy(bool quick) {
     lattice_flow lattice(quick ? 8 : 16, 2, medium, 1e3);
     do {
         lattice.sim().step();
-    } while (!(std::fabs(lattice.permeability(0) / lattice.permeability(1) - 1) < 1e-10));
+    } while (o.goes_on() && !(std::fabs(lattice.permeability(0) / lattice.permeability(1) - 1) < 1e-10));
+    if (o.stopped) {
+        add_size(o, lattice.sim());
+        return o;
+    }
     o.add("permeability_lattice/C", lattice.permeability(1) / medium.conductance,
           medium.permeability() / medium.conductance);
 
@@ -171,7 +186,12 @@ outcome run_darcy(bool quick) {
     do {
         body.sim().step();
         fluid.enter(body.sim().flow().network(), body.sim().time_step());
-    } while (!(std::fabs(body.outflow() / body.inflow() - 1) < 1e-10) && body.sim().steps() < 2000);
+    } while (o.goes_on() && !(std::fabs(body.outflow() / body.inflow() - 1) < 1e-10) && body.sim().steps() < 2000);
+    if (o.stopped) {
+        add_mass(o, fluid);
+        add_size(o, body.sim());
+        return o;
+    }
     auto const steady = body.solve();
     o.add("permeability_random", body.permeability(body.inflow()), body.permeability(steady.flow));
     o.add("outflow/inflow", body.outflow() / body.inflow(), 1);

@@ -95,15 +95,44 @@ elseif(CASE STREQUAL "files")
     if(NOT magic STREQUAL "89504e47")
       message(FATAL_ERROR "${case}.png is no PNG")
     endif()
-    # Once more into the same directory, and the same numbers.
+    # Once more into the same directory, if that is asked for, and the same numbers.
     file(SHA256 "${SCRATCH}/${case}/${case}.csv" first)
-    call(0 --case ${case} --quick --out ${case} --json)
+    call(2 --case ${case} --quick --out ${case})
+    if(NOT err MATCHES "^poroelasticity: --out = .${case}.: [^\n]*--force[^\n]*\n$")
+      message(FATAL_ERROR "not refused: ${err}")
+    endif()
+    call(0 --case ${case} --quick --out ${case} --json --force)
     string(JSON name GET "${out}" case)
     file(SHA256 "${SCRATCH}/${case}/${case}.csv" second)
     if(NOT name STREQUAL case OR NOT first STREQUAL second)
       message(FATAL_ERROR "a second run differs: ${out}")
     endif()
   endforeach()
+
+elseif(CASE STREQUAL "stopped")
+  # By SIGTERM, in the middle: what there is, marked; and another case may use the directory meanwhile, the same may not.
+  find_program(sh sh)
+  foreach(case IN ITEMS terzaghi mandel cryer darcy)
+    execute_process(COMMAND "${sh}" -c "'${PROGRAM}' --case ${case} --out out & \
+while ! test -e out/lacuna-${case}.lock; do sleep 0.01; done; '${PROGRAM}' --case ${case} --out out; echo second $?; \
+kill -TERM $!; wait $!; echo first $?"
+      WORKING_DIRECTORY "${SCRATCH}" OUTPUT_VARIABLE out ERROR_VARIABLE err)
+    if(NOT out MATCHES "second 2\n" OR NOT out MATCHES "first 143\n" OR NOT err MATCHES "in use by process")
+      message(FATAL_ERROR "${case}: ${out}${err}")
+    endif()
+    file(READ "${SCRATCH}/out/${case}-stopped.json" text)
+    string(JSON ended GET "${text}" ended)
+    file(STRINGS "${SCRATCH}/out/${case}.csv" lines)
+    list(GET lines 0 head)
+    if(NOT ended STREQUAL "stopped by SIGTERM" OR NOT head STREQUAL "curve,x,value,reference")
+      message(FATAL_ERROR "${case}: ${text}${lines}")
+    endif()
+  endforeach()
+  files(out cryer-stopped.json cryer.csv darcy-stopped.json darcy.csv mandel-stopped.json mandel.csv terzaghi-stopped.json
+    terzaghi.csv)
+  # Then only the case's own files are replaced.
+  call(0 --case darcy --quick --out out --force)
+  files(out cryer-stopped.json cryer.csv darcy.csv darcy.png mandel-stopped.json mandel.csv terzaghi-stopped.json terzaghi.csv)
 
 elseif(CASE STREQUAL "terzaghi")
   call(0 --case terzaghi --json)

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cstdio>
 #include <exception>
-#include <filesystem>
 #include <stdexcept>
 #include <string>
-#include <system_error>
 
 #include <CLI/CLI.hpp>
+
+#include <lacuna/observe/run_directory.hpp>
+#include <lacuna/observe/stop_signal.hpp>
 
 #include "cases.hpp"
 #include "output.hpp"
@@ -23,7 +24,7 @@ public:
 
 struct request {
     std::string name, out = ".";
-    bool quick = false, json = false;
+    bool quick = false, json = false, force = false;
     poroelasticity::outcome (*run)(bool quick) = nullptr;
 };
 
@@ -31,11 +32,12 @@ struct request {
 request understand(int argc, char const* const* argv) {
     request r;
     CLI::App app("Poroelasticity of a bonded packing of discs with fluid in its pores, beside the closed forms.\n"
-                 "Writes CASE.csv and CASE.png. Exit status: 0 done, 1 failed, 2 bad request.",
+                 "Writes CASE.csv and CASE.png. Exit status: 0 done, 1 failed, 2 bad request, 128 + number of a signal that stopped it.",
                  "poroelasticity");
     app.failure_message(CLI::FailureMessage::simple);
     app.add_option("--case", r.name, "terzaghi, mandel, cryer or darcy")->required()->type_name("CASE");
     app.add_option("--out", r.out, "directory for the files (.)")->type_name("DIR");
+    app.add_flag("--force", r.force, "replace the files of the case that are in DIR");
     app.add_flag("--json", r.json, "rows of quantity, value, reference, relative_error as JSON on stdout");
     app.add_flag("--quick", r.quick, "a coarse body and a short run");
     try {
@@ -55,10 +57,6 @@ request understand(int argc, char const* const* argv) {
     if (r.name == "darcy") r.run = poroelasticity::run_darcy;
     if (!r.run)
         throw usage_error("--case " + (r.name.empty() ? "''" : r.name) + ": must be terzaghi, mandel, cryer or darcy");
-    std::error_code error;
-    std::filesystem::create_directories(r.out, error);
-    if (!std::filesystem::is_directory(r.out, error))
-        throw usage_error("--out " + (r.out.empty() ? "''" : r.out) + ": must be a directory, or one that can be made");
     return r;
 }
 
@@ -68,13 +66,24 @@ int main(int argc, char** argv) {
     try {
         request const r = understand(argc, argv);
         if (!r.run) return done;
+        lacuna::watch_stop_signals();
+        // Cases have files of their own, so each has a lock of its own.
+        lacuna::run_directory directory(r.out, "--out", poroelasticity::result_names(r.name),
+                                        r.force ? lacuna::earlier_results::replace : lacuna::earlier_results::refuse,
+                                        "lacuna-" + r.name + ".lock");
         auto const outcome = r.run(r.quick);
-        poroelasticity::write_files(r.out, outcome);
+        poroelasticity::write_files(directory, outcome);
         if (r.json)
             std::fputs(poroelasticity::to_json(outcome).c_str(), stdout);
         else
             poroelasticity::print_rows(stdout, outcome);
-        return done;
+        if (!outcome.stopped) return done;
+        std::fprintf(stderr, "poroelasticity: stopped by %s after step %lld; what there is is in %s\n",
+                     lacuna::signal_name(lacuna::stop_signal()).c_str(), outcome.steps, directory.file(r.name + ".csv").c_str());
+        return 128 + lacuna::stop_signal();
+    } catch (std::invalid_argument const& bad) {
+        std::fprintf(stderr, "poroelasticity: %s\n", bad.what());
+        return bad_request;
     } catch (usage_error const& bad) {
         std::fprintf(stderr, "poroelasticity: %s\n", bad.what());
         return bad_request;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <lacuna/core/vec.hpp>
+#include <lacuna/observe/stop_signal.hpp>
 
 /// \file
 /// What a case comes to: numbers beside their references, curves, and a pressure field.
@@ -54,7 +55,13 @@ struct outcome {
     pressure_field field;
     std::size_t particles = 0, pores = 0;
     long long steps = 0;
+    bool stopped = false; ///< by a signal: curves up to there, and no rows of what was not reached
 
+    /// To be asked after each step: whether to go on.
+    bool goes_on() {
+        stopped = stopped || lacuna::stop_signal() != 0;
+        return !stopped;
+    }
     void add(std::string quantity, double value, double reference) {
         rows.push_back({std::move(quantity), value, reference});
     }

@@ -25,7 +25,9 @@ std::string csv_of(outcome const& o) {
 } // namespace
 
 std::string to_json(outcome const& o) {
-    std::string text = "{\n  \"case\": \"" + o.name + "\",\n  \"particles\": " + std::to_string(o.particles) +
+    std::string text = "{\n  \"case\": \"" + o.name + "\",\n";
+    if (o.stopped) text += "  \"ended\": \"stopped by " + lacuna::signal_name(lacuna::stop_signal()) + "\",\n";
+    text += "  \"particles\": " + std::to_string(o.particles) +
                        ",\n  \"pores\": " + std::to_string(o.pores) + ",\n  \"steps\": " + std::to_string(o.steps) +
                        ",\n  \"rows\": [";
     char const* separator = "\n";
@@ -45,10 +47,19 @@ void print_rows(std::FILE* out, outcome const& o) {
                      row.error());
 }
 
-void write_files(std::filesystem::path const& directory, outcome const& o) {
-    lacuna::whole_file csv((directory / (o.name + ".csv")).string());
+std::vector<std::string> result_names(std::string const& name) { return {name + ".csv", name + ".png", name + "-stopped.json"}; }
+
+void write_files(lacuna::run_directory& directory, outcome const& o) {
+    directory.keep();
+    lacuna::whole_file csv(directory.file(o.name + ".csv"));
     csv.write(csv_of(o));
-    save_picture((directory / (o.name + ".png")).string(), o);
+    if (o.stopped) {
+        lacuna::whole_file mark(directory.file(o.name + "-stopped.json"));
+        mark.write(to_json(o));
+        mark.commit();
+    } else {
+        save_picture(directory.file(o.name + ".png"), o);
+    }
     csv.commit();
 }
 

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cstdio>
 #include <exception>
-#include <filesystem>
 #include <map>
 #include <stdexcept>
 #include <string>
-#include <system_error>
 
 #include <CLI/CLI.hpp>
+
+#include <lacuna/observe/run_directory.hpp>
+#include <lacuna/observe/stop_signal.hpp>
 
 #include "output.hpp"
 #include "uniaxial.hpp"
@@ -19,7 +20,7 @@ enum exit_status { done = 0, failed = 1, bad_request = 2 };
 struct wish {
     uniaxial::request request;
     std::string specimen = "random", out = ".";
-    bool json = false, help = false;
+    bool json = false, force = false, help = false;
 };
 
 /// \throws std::invalid_argument with one line for a request that cannot be met
@@ -28,7 +29,7 @@ wish understand(int argc, char const* const* argv) {
     auto& q = w.request;
     CLI::App app("Uniaxial compression of a bonded specimen between two platens.\n"
                  "Writes uniaxial.csv, uniaxial.json, uniaxial.png, uniaxial.svg. SI units.\n"
-                 "Exit status: 0 done, 1 failed, 2 bad request.",
+                 "Exit status: 0 done, 1 failed, 2 bad request, 128 + number of a signal that stopped it.",
                  "uniaxial");
     app.failure_message(CLI::FailureMessage::simple);
     app.add_option("--specimen", w.specimen, "random or lattice (random)")->type_name("KIND");
@@ -48,6 +49,7 @@ wish understand(int argc, char const* const* argv) {
     app.add_option("--steps", q.steps, "to get there")->capture_default_str();
     app.add_option("--out", w.out, "directory for the files (.)")->type_name("DIR");
     app.add_flag("--elastic", q.elastic, "bonds that never break: moduli alone");
+    app.add_flag("--force", w.force, "replace the results that are in DIR");
     app.add_flag("--json", w.json, "the figures as JSON on stdout");
     try {
         app.parse(argc, argv);
@@ -67,10 +69,6 @@ wish understand(int argc, char const* const* argv) {
     if (kind == kinds.end()) throw std::invalid_argument("--specimen " + w.specimen + ": must be random or lattice");
     q.specimen = kind->second;
     q.validate();
-    std::error_code error;
-    std::filesystem::create_directories(w.out, error);
-    if (!std::filesystem::is_directory(w.out, error))
-        throw std::invalid_argument("--out " + w.out + ": must be a directory, or one that can be made");
     return w;
 }
 
@@ -80,13 +78,28 @@ int main(int argc, char** argv) {
     try {
         wish const w = understand(argc, argv);
         if (w.help) return done;
-        auto const outcome = uniaxial::run(w.request);
-        uniaxial::write_files(w.out, outcome);
+        lacuna::watch_stop_signals();
+        lacuna::run_directory directory(w.out, "--out", {"uniaxial.csv", "uniaxial.json", "uniaxial.png", "uniaxial.svg"},
+                                        w.force ? lacuna::earlier_results::replace : lacuna::earlier_results::refuse);
+        lacuna::growing_file rows(directory.file("uniaxial.csv"), uniaxial::row_heading());
+        directory.keep();
+        auto const outcome = [&] {
+            try {
+                return uniaxial::run(w.request, &rows);
+            } catch (std::invalid_argument const&) {
+                directory.discard();
+                throw;
+            }
+        }();
+        uniaxial::write_files(directory, outcome);
         if (w.json)
             std::fputs(uniaxial::to_json(outcome).c_str(), stdout);
         else
             uniaxial::print(stdout, outcome);
-        return done;
+        if (outcome.ended.rfind("stopped", 0) != 0) return done;
+        std::fprintf(stderr, "uniaxial: %s after step %lld; what there is is in %s\n", outcome.ended.c_str(), outcome.steps,
+                     directory.file("uniaxial.csv").c_str());
+        return 128 + lacuna::stop_signal();
     } catch (std::invalid_argument const& bad) {
         std::fprintf(stderr, "uniaxial: %s\n", bad.what());
         return bad_request;

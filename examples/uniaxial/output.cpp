@@ -12,15 +12,6 @@ namespace uniaxial {
 
 namespace {
 
-std::string csv_of(outcome const& o) {
-    std::string text = "strain,stress_Pa,middle_strain,middle_lateral_strain,tension_cracks,shear_cracks\n";
-    for (auto const& s : o.curve)
-        text += lacuna::to_text(s.strain) + "," + lacuna::to_text(s.stress) + "," + lacuna::to_text(s.middle_strain) + "," +
-                lacuna::to_text(s.lateral_strain) + "," + std::to_string(s.tension_cracks) + "," +
-                std::to_string(s.shear_cracks) + "\n";
-    return text;
-}
-
 /// Of a quantity that should be zero, its value.
 double error_of(figure const& f) { return std::fabs(*f.reference != 0 ? f.value / *f.reference - 1 : f.value); }
 
@@ -32,6 +23,7 @@ std::string to_json(outcome const& o) {
     all["specimen"] = q.specimen == specimen_kind::lattice ? "lattice" : "random";
     all["particles"] = o.particles;
     all["bonds"] = o.bonds;
+    all["ended"] = o.ended;
     all["steps"] = o.steps;
     all["time_step"] = o.time_step;
     all["settings"] = {{"width", q.width}, {"height", q.height}, {"radius", q.radius}, {"thickness", q.thickness},
@@ -62,12 +54,11 @@ void print(std::FILE* out, outcome const& o) {
     }
 }
 
-void write_files(std::filesystem::path const& directory, outcome const& o) {
-    lacuna::whole_file csv((directory / "uniaxial.csv").string()), json((directory / "uniaxial.json").string());
-    csv.write(csv_of(o));
+void write_files(lacuna::run_directory const& directory, outcome const& o) {
+    save_picture(directory.file("uniaxial"), o);
+    // Last, because its presence says that the run has ended.
+    lacuna::whole_file json(directory.file("uniaxial.json"));
     json.write(to_json(o));
-    save_picture((directory / "uniaxial").string(), o);
-    csv.commit();
     json.commit();
 }
 

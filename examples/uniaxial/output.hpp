@@ -2,8 +2,9 @@
 #pragma once
 
 #include <cstdio>
-#include <filesystem>
 #include <string>
+
+#include <lacuna/observe/run_directory.hpp>
 
 #include "uniaxial.hpp"
 
@@ -13,8 +14,8 @@ namespace uniaxial {
 std::string to_json(outcome const& o);
 /// The figures as a table.
 void print(std::FILE* out, outcome const& o);
-/// Writes uniaxial.csv, uniaxial.json, uniaxial.png and uniaxial.svg. \throws std::runtime_error
-void write_files(std::filesystem::path const& directory, outcome const& o);
+/// Writes uniaxial.png and uniaxial.svg, and last uniaxial.json. \throws std::runtime_error
+void write_files(lacuna::run_directory const& directory, outcome const& o);
 /// Writes the picture, as PNG and SVG. \param stem path without ending \throws std::runtime_error
 void save_picture(std::string const& stem, outcome const& o);
 

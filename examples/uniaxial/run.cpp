@@ -9,6 +9,7 @@
 #include <lacuna/laws/weibull.hpp>
 #include <lacuna/loads/compression.hpp>
 #include <lacuna/observe/crack_record.hpp>
+#include <lacuna/observe/stop_signal.hpp>
 #include <lacuna/particles/hexagonal.hpp>
 #include <lacuna/particles/random_packing.hpp>
 #include <lacuna/simulation.hpp>
@@ -164,12 +165,20 @@ void request::validate() const {
     lacuna::require_in("steps", double(steps), 1000, 1e8);
 }
 
-outcome run(request const& asked) {
+std::string row_heading() { return "strain,stress_Pa,middle_strain,middle_lateral_strain,tension_cracks,shear_cracks\n"; }
+
+std::string row_of(sample const& s) {
+    return lacuna::to_text(s.strain) + "," + lacuna::to_text(s.stress) + "," + lacuna::to_text(s.middle_strain) + "," +
+           lacuna::to_text(s.lateral_strain) + "," + std::to_string(s.tension_cracks) + "," + std::to_string(s.shear_cracks) + "\n";
+}
+
+outcome run(request const& asked, lacuna::growing_file* rows) {
     asked.validate();
     auto const specimen = make_specimen(asked);
     simulation sim(specimen, settings(asked, specimen));
     outcome o;
     o.asked = asked;
+    o.ended = "strain";
     o.particles = specimen.size();
     o.bonds = specimen.bonds.size();
     o.time_step = sim.time_step();
@@ -182,12 +191,17 @@ outcome run(request const& asked) {
     test.load(sim);
     lacuna::crack_record<lacuna::break_event<2>> cracks;
     sample row;
-    o.curve.push_back(row);
+    auto const tell = [&] {
+        o.curve.push_back(row);
+        if (rows) rows->add(row_of(row));
+    };
+    if (rows) rows->begin();
+    tell();
     std::size_t counted = 0;
     double highest = 0;
     long long const interval = std::max(1LL, asked.steps / rows_of_a_run);
     while (sim.steps() < asked.steps) {
-        sim.run(std::min(interval, asked.steps - sim.steps()), cracks);
+        sim.run(std::min(interval, asked.steps - sim.steps()), cracks, lacuna::stop_on_signal{});
         auto const state = test.state(sim);
         auto const middle = strains_of_the_middle(sim, specimen);
         for (; counted < cracks.events().size(); ++counted)
@@ -196,10 +210,18 @@ outcome run(request const& asked) {
         row.stress = state.stress[1];
         row.middle_strain = middle[0];
         row.lateral_strain = middle[1];
-        o.curve.push_back(row);
+        tell();
         highest = std::max(highest, row.stress);
-        if (counted > 0 && row.stress < 0.5 * highest) break;
+        if (counted > 0 && row.stress < 0.5 * highest) {
+            o.ended = "failure";
+            break;
+        }
+        if (lacuna::stop_signal() != 0 && sim.steps() < asked.steps) {
+            o.ended = "stopped by " + lacuna::signal_name(lacuna::stop_signal());
+            break;
+        }
     }
+    if (rows) rows->flush();
     o.steps = sim.steps();
     find_moduli(o);
     o.end = scene_of(sim, cracks);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include <lacuna/observe/growing_file.hpp>
 #include <lacuna/observe/picture_scene.hpp>
 
 /// \file
@@ -68,13 +69,19 @@ struct outcome {
     std::size_t particles = 0, bonds = 0;
     long long steps = 0;
     double time_step = 0;
+    std::string ended; ///< "strain", "failure", or "stopped by" a signal: then as far as it came
     lacuna::scene end; ///< the specimen after the run
 
     std::vector<figure> figures() const;
 };
 
+/// First line and a row of uniaxial.csv.
+std::string row_heading();
+std::string row_of(sample const& s);
+
+/// \param rows file that is begun and grows by the curve's rows as they come; null: none
 /// \throws std::invalid_argument for a bad request, std::runtime_error for a run that failed
-outcome run(request const& asked);
+outcome run(request const& asked, lacuna::growing_file* rows = nullptr);
 
 /// Young's modulus that the outline of a strip of `chains` straight chains of touching discs shows under a load along
 /// them, and Poisson's ratio, by the moduli of the triangular lattice: the strip deforms as the lattice does, and lacks
