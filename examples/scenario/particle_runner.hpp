@@ -91,26 +91,13 @@ private:
 
 template <class Model>
 void particle_runner<Model>::build(lacuna::simulation_parameters<Model> const& given) {
-    auto p = given;
     lacuna::packing<typename Model::real, dim> packing;
     for (std::size_t k = 0; k < scenario_.bodies.size(); ++k)
         packing.add(lacuna::convert<typename Model::real>(to_vec<dim>(scenario_.bodies.position[k])),
                     typename Model::real(scenario_.bodies.radius[k]), scenario_.bodies.material[k]);
     packing.density = scenario_.bodies.density;
     packing.bonds.assign(scenario_.joints.pairs.begin(), scenario_.joints.pairs.end());
-    sim_.emplace(packing, p);
-    set_up();
-    if (p.time_step > 0 || std::isfinite(sim_->limits().critical())) return;
-    // Nothing touches yet: the step of the lightest particle on the stiffest of springs, if there can be any.
-    double stiffest = 0, lightest = std::numeric_limits<double>::infinity();
-    for (material const& m : scenario_.materials) stiffest = std::max(stiffest, m.normal_stiffness + m.shear_stiffness);
-    for (wall const& w : scenario_.walls) stiffest = std::max(stiffest, w.normal_stiffness + w.shear_stiffness);
-    for (std::size_t k = 0; k < sim_->size(); ++k) lightest = std::min(lightest, sim_->mass(k));
-    if (scenario_.simulation.contact == contact_law::none)
-        refuse("simulation.time_step", "\"auto\"", "a number of seconds: nothing here has a stiffness to take it from");
-    p.time_step = p.safety * 0.5 * std::sqrt(lightest / stiffest);
-    p.allow_unstable_step = true;
-    sim_.emplace(packing, p);
+    sim_.emplace(packing, given);
     set_up();
 }
 

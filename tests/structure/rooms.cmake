@@ -59,6 +59,7 @@ set(EXCEPTIONS
   "simulation.hpp lines"
   "simulation/parameters.hpp depth"
   "simulation/limits.hpp depth"
+  "simulation/step_control.hpp depth"
   "simulation/fluid_coupling.hpp depth"
   # All guards, one of which looks at the pores.
   "simulation/run_guards.hpp depth"
