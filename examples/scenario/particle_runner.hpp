@@ -167,6 +167,8 @@ double particle_runner<Model>::settled_step() const {
     try {
         return sim_->time_step();
     } catch (std::invalid_argument const& bad) {
+        if (!(scenario_.simulation.time_step > 0))
+            refuse("simulation.time_step", "\"auto\"", "a number of seconds: nothing here has a stiffness to take it from");
         throw refusal("simulation." + std::string(bad.what()));
     }
 }

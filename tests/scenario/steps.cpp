@@ -49,6 +49,16 @@ TEST_CASE("stiffnesses that the contacts do not have do not choose the step", "[
     }
 }
 
+TEST_CASE("what has no stiffness has no step", "[step][refusal]") {
+    folder const here("step_none");
+    here.write("a.toml", "[simulation]\ncontact_law = \"none\"\nbond_law = \"none\"\nsteps = 1\n[materials.m]\ndensity = 1.0\n"
+                         "normal_stiffness = 1.0\nshear_stiffness = 1.0\nfriction = 0.0\n[particles]\nposition = [[0.0, 0.0]]\n"
+                         "radius = 1.0\nmaterial = \"m\"\n[output]\ndirectory = \"out\"\n");
+    auto const ran = here.run("--quiet a.toml");
+    CHECK(ran.status == 2);
+    CHECK_THAT(ran.err, contains_text("simulation.time_step = \"auto\": must be a number of seconds"));
+}
+
 TEST_CASE("a given step that the contact makes unsafe ends the run with both numbers", "[step][refusal]") {
     folder const here("step_given");
     here.write("a.toml", two_spheres("time_step = 1e-3\n", ""));
