@@ -72,6 +72,7 @@ lacuna::simulation_parameters<Model> model_parameters(lacuna::cartilage_specimen
     p.bonds = bond_strengths(s, open);
     p.damping.factor = open.local_damping;
     p.safety = 0.4;
+    p.follow_critical_step = false; // one step for a run, so that runs can be compared
     // The generator lets neighbours overlap by its tolerance, or leave gaps up to twice that: both are contacts.
     p.interactions.initial_contact_tolerance = 2 * open.contact_tolerance;
     auto const rigid = p.materials.front().contact;
@@ -127,12 +128,15 @@ std::unique_ptr<lacuna::simulation<Model>> load_specimen(specimen const& s, opti
     parameters.threads = o.threads;
     parameters.safety = o.step_share;
     parameters.keep_pair_forces = o.pair_forces;
-    if (o.time_step_ps) {
-        parameters.time_step = *o.time_step_ps * 1e-12;
-        parameters.allow_unstable_step = true; // the paper's own is
-    }
+    if (o.time_step_ps) parameters.time_step = *o.time_step_ps * 1e-12;
+    parameters.allow_unstable_step = o.allow_unstable_step;
     auto sim = std::make_unique<lacuna::simulation<Model>>(s.discs, parameters);
     set_up(*sim, s, o.load_MPa * 1e6, o.open);
+    try {
+        if (o.time_step_ps) sim->time_step();
+    } catch (std::invalid_argument const& bad) {
+        throw std::invalid_argument("--time-step: " + std::string(bad.what()) + ": --allow-unstable-step");
+    }
     return sim;
 }
 

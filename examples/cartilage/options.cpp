@@ -23,7 +23,7 @@ constexpr char const* version_text = "cartilage, Lacuna " CARTILAGE_TEXT(LACUNA_
 /// The command line as written, before it is understood.
 struct words : model_words {
     std::string zone, load, seed = "1", threads = "1", out, picture_every, time_step;
-    bool quiet = false, force = false;
+    bool quiet = false, force = false, allow_unstable_step = false;
 };
 
 void add_specimen_options(CLI::App& app, words& w) {
@@ -47,6 +47,7 @@ options understand(words const& w, command what) {
     o.seed = whole_number<std::uint64_t>("--seed", w.seed, 0, largest_seed, "a whole number >= 0");
     o.quiet = w.quiet;
     o.force = w.force;
+    o.allow_unstable_step = w.allow_unstable_step;
     if (what == command::run) {
         o.load_MPa = positive_number("--load", w.load, "a number of MPa > 0");
         o.threads = whole_number<int>("--threads", w.threads, 1, 1024, "a whole number from 1 to 1024");
@@ -83,8 +84,8 @@ std::optional<options> parse_command_line(int argc, char const* const* argv) {
     add_specimen_options(run, w);
     run.add_option("--load", w.load, "on the top row, at once")->required()->type_name("MPA");
     add_run_options(run, w);
-    run.add_option("--time-step", w.time_step, "in place of 0.4 of the rigorous bound, stable or not")
-        ->type_name("PS");
+    run.add_option("--time-step", w.time_step, "in place of 0.4 of the rigorous bound")->type_name("PS");
+    run.add_flag("--allow-unstable-step", w.allow_unstable_step, "run even with a time step above the rigorous bound");
     run.add_option("--threads", w.threads, "the results do not depend on it (1)")->type_name("N");
     run.add_option("--picture-every", w.picture_every, "a damage picture every so many steps")->type_name("STEPS");
 

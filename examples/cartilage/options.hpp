@@ -35,6 +35,7 @@ struct options {
     double height_um = 300;
     std::optional<double> duration_ns; ///< that of `open`; none: until quiet
     std::optional<double> time_step_ps; ///< none: a share of the rigorous bound
+    bool allow_unstable_step = false;
     double step_share = 0.4;
     bool pair_forces = false; ///< the run's forces of single pairs will be asked for; no option
     int threads = 1;

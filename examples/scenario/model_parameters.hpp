@@ -113,7 +113,6 @@ lacuna::simulation_parameters<Model> model_parameters(scenario const& s) {
     p.damping = {set.local_damping, set.mass_damping, set.viscous_damping};
     p.time_step = set.time_step;
     p.safety = set.safety;
-    p.follow_critical_step = set.time_step == 0;
     p.velocities_on_time = set.velocity_verlet;
     p.allow_unstable_step = set.allow_unstable_step;
     p.guards = set.guards;

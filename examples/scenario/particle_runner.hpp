@@ -122,21 +122,7 @@ lacuna::packing<typename Model::real, particle_runner<Model>::dim> particle_runn
 
 template <class Model>
 void particle_runner<Model>::build(lacuna::simulation_parameters<Model> const& given) {
-    auto p = given;
-    auto const packing = packing_of();
-    sim_.emplace(packing, p);
-    set_up();
-    if (p.time_step > 0 || std::isfinite(sim_->limits().critical())) return;
-    // Nothing touches yet: the step of the lightest particle on the stiffest of springs, if there can be any.
-    double stiffest = 0, lightest = std::numeric_limits<double>::infinity();
-    for (material const& m : scenario_.materials) stiffest = std::max(stiffest, m.normal_stiffness + m.shear_stiffness);
-    for (wall const& w : scenario_.walls) stiffest = std::max(stiffest, w.normal_stiffness + w.shear_stiffness);
-    for (std::size_t k = 0; k < sim_->size(); ++k) lightest = std::min(lightest, sim_->mass(k));
-    if (scenario_.simulation.contact == contact_law::none)
-        refuse("simulation.time_step", "\"auto\"", "a number of seconds: nothing here has a stiffness to take it from");
-    p.time_step = p.safety * 0.5 * std::sqrt(lightest / stiffest);
-    p.allow_unstable_step = true;
-    sim_.emplace(packing, p);
+    sim_.emplace(packing_of(), given);
     set_up();
 }
 
@@ -240,6 +226,8 @@ double particle_runner<Model>::settled_step() const {
     try {
         return sim_->time_step();
     } catch (std::invalid_argument const& bad) {
+        if (!(scenario_.simulation.time_step > 0))
+            refuse("simulation.time_step", "\"auto\"", "a number of seconds: nothing here has a stiffness to take it from");
         throw refusal("simulation." + std::string(bad.what()));
     }
 }

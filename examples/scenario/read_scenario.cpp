@@ -52,26 +52,28 @@ settings read_settings(value const& from) {
     return s;
 }
 
-/// Young's modulus and Poisson's ratio, of Hertzian contacts only.
+/// Stiffnesses, and Young's modulus and Poisson's ratio of Hertzian contacts, which then need no stiffnesses.
+/// \param bonds stiffnesses are those of bonds, too
 template <class Body>
-void read_elasticity(table const& t, Body& to) {
+void read_elasticity(table const& t, Body& to, bool bonds) {
     to.young_modulus = t.given("young_modulus");
     if (to.young_modulus) to.poisson_ratio = t.number("poisson_ratio");
+    bool const needed = bonds || !to.young_modulus;
+    to.normal_stiffness = needed ? t.number("normal_stiffness") : t.given("normal_stiffness").value_or(1.0);
+    to.shear_stiffness = needed ? t.number("shear_stiffness") : t.given("shear_stiffness").value_or(0.0);
 }
 
-std::vector<material> read_materials(value const& from) {
+std::vector<material> read_materials(value const& from, bool bonds) {
     std::vector<material> found;
     for (auto const& [key, node] : *from.node->as_table()) {
         material m;
         m.name = std::string(key.str());
         table const t({&node, from.path + "." + m.name}, "materials.*");
         m.density = t.number("density");
-        m.normal_stiffness = t.number("normal_stiffness");
-        m.shear_stiffness = t.number("shear_stiffness");
         m.friction = t.number("friction");
         m.tensile_strength = t.given("tensile_strength");
         m.shear_strength = t.given("shear_strength");
-        read_elasticity(t, m);
+        read_elasticity(t, m, bonds);
         found.push_back(m);
     }
     if (found.empty()) from.refuse("at least one material");
@@ -202,10 +204,8 @@ wall read_wall(value const& from, settings const& s) {
     w.normal = t["normal"].vector(s.dimension);
     double const length = std::hypot(w.normal[0], w.normal[1], w.normal[2]);
     if (!(length > 0 && std::isfinite(length))) t["normal"].refuse("a vector of finite length > 0");
-    w.normal_stiffness = t.number("normal_stiffness");
-    w.shear_stiffness = t.number("shear_stiffness");
     w.friction = t.number("friction");
-    read_elasticity(t, w);
+    read_elasticity(t, w, false);
     return w;
 }
 
@@ -349,7 +349,7 @@ scenario read_tables(toml::table const& file, std::string const& folder) {
     s.simulation = read_settings(t["simulation"]);
     if (t.has("fluid")) s.water = read_fluid(t["fluid"]);
     if (!s.water || !s.water->bare()) {
-        s.materials = read_materials(t["materials"]);
+        s.materials = read_materials(t["materials"], s.simulation.bond != bond_law::none);
         s.bodies = read_particles(t["particles"], s.simulation, s.materials, folder);
         if (t.has("bonds")) s.joints = read_bonds(t["bonds"], s);
         for (value const& one : t.list("walls")) s.walls.push_back(read_wall(one, s.simulation));

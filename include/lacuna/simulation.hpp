@@ -32,6 +32,7 @@
 #include <lacuna/simulation/paths.hpp>
 #include <lacuna/simulation/run_guards.hpp>
 #include <lacuna/simulation/set_up_record.hpp>
+#include <lacuna/simulation/step_control.hpp>
 
 namespace lacuna {
 
@@ -139,6 +140,7 @@ public:
     void fix(std::size_t id, fixed_axes const& axes = fixed_axes::all()) {
         store_.fix(internal(id), axes);
         note(set_up::fixed_axes);
+        control_.forget_forecast();
     }
     /// Joins particles to a rigid, smooth plate, see rigid_plates: from now on they move as one along the axis. Not to
     /// be given velocities of their own afterwards.
@@ -248,10 +250,14 @@ public:
     /// As step(), and keeps the energy ledger.
     void step_with_energy() { take_step<true>(); }
 
-    /// Limits of the time step in the present state (MODEL.md section 6).
-    time_step_limits limits() const {
-        return find_limits<Model>(store_, interactions_, walls_, fluid_.get(), parameters_.damping);
-    }
+    /// Limits of the time step in the present state (MODEL.md section 6), by what the control of the step counts: bonds,
+    /// contacts of particles and walls that touch or may before the next look, and the fluid; with laws that stiffen
+    /// contacts are taken to be as deep as then they may be. See assumed_contacts() and step_control.
+    time_step_limits limits() const { return find_limits_of(assumed_contacts()); }
+    /// What limits() assumes of contacts.
+    contact_assumption assumed_contacts() const { return time_step_ ? control_.assumed() : next_assumption(); }
+    /// How often the limits of the time step were looked for, the first time included.
+    long long looks() const noexcept { return control_.looks(); }
 
     /// Force of particle b on particle a by their bond or contact in the last step, N; zero without one.
     /// \throws std::logic_error when forces are not kept: see simulation_parameters::keep_pair_forces
@@ -320,7 +326,7 @@ public:
         walls_.archive(ar, store_);
         ar(wall_drive_);
         fluid_.archive(ar, store_);
-        ar(events_, kicked_, motions_, plates_, ledger_, guards_, time_step_, step_, planned_steps_, planned_end_);
+        ar(events_, kicked_, motions_, plates_, ledger_, guards_, time_step_, control_, moved_, step_, planned_steps_, planned_end_);
         ar(clock_.time, clock_.step, clock_.last);
         require_state(motions_.fits(store_.size()), "a motion prescribed to no particle");
         require_state(plates_.fit(store_.size()), "a rigid plate of no particle");
@@ -332,6 +338,7 @@ public:
         if constexpr (Archive::is_loading::value) {
             reports_.resize(std::size_t(interactions_.chunks()));
             fluid_.map_throats(interactions_);
+            interactions_.watch_overlaps(control_.assumed().overlap);
         }
     }
 
@@ -381,7 +388,7 @@ private:
         if (changed || walls_.outdated(store_)) update_walls();
         // Slips are those of the motion that led here, with the step of then.
         auto const before = real(step_ > 0 ? clock_.last : *time_step_);
-        if (changed && parameters_.follow_critical_step) follow_critical_step();
+        if (control_.looks_now()) mind_step();
         auto const dt = real(*time_step_);
         clock_.last = *time_step_;
         loads_.advance(store_, time());
@@ -410,7 +417,8 @@ private:
                 for (int c = spans.begin(s); c < spans.frontier_end(s); ++c) finish(c);
             });
         };
-        if (!further_forces && kicked_.empty() && !on_time && spans.count() == parameters_.threads) {
+        bool const changes_step = dt != before;
+        if (!further_forces && kicked_.empty() && !on_time && !changes_step && spans.count() == parameters_.threads) {
             evaluate_spans([&](int c) {
                 interactions_.with_fresh_forces_on(c, [&](auto const& force) { move<WithEnergy>(c, dt, force, nullptr); });
             });
@@ -431,6 +439,7 @@ private:
                 if constexpr (WithEnergy) ledger_.book_work(work_of_kick(k, before));
             }
             if (on_time) set_back((before + dt) / 4);
+            if (changes_step) share_kick((dt - before) / 2);
             given = fastest_given();
             guards_.follow(store_, given);
             kicked_.clear();
@@ -440,7 +449,7 @@ private:
             });
         }
         collect_events();
-        guards_.check_motion(store_, interactions_, reports_, dt, given, now());
+        moved_ = guards_.check_motion(store_, interactions_, reports_, dt, given, now());
         count_paths<dim>(std::span<motion_report<real> const>(reports_), dt, interactions_, walls_);
         if constexpr (WithEnergy) {
             auto pairs = interactions_.energy();
@@ -455,6 +464,9 @@ private:
             if (parameters_.guards.pores && parameters_.remeshing.rule == remesh_rule::never &&
                 (changed || step_ % 64 == 63))
                 check_pores(store_, fluid_.get()->network(), now(), guards_.crushed(store_, interactions_));
+        if (minds_step())
+            control_.moved(std::max(double(moved_), walls_.fastest() * double(dt)),
+                           std::max(interactions_.take_deepest(), walls_.take_deepest()), !events_.empty());
         ++step_;
         if (remeshed || step_ % 64 == 0) mind_flow_limit();
     }
@@ -520,6 +532,16 @@ private:
             for (bool const spin : {false, true}) once(k, spin);
     }
 
+    /// From the middle of one step to that of the next, of another length, it takes half of each: velocities give what a
+    /// kick of the whole next step has too much.
+    void share_kick(real too_long) {
+        for (std::size_t k = 0; k < store_.size(); ++k) {
+            auto const force = total_force(store_, interactions_, extra_, k);
+            set_velocity_back(store_, force, k, too_long);
+            set_spin_back(store_, force, k, too_long);
+        }
+    }
+
     template <bool WithEnergy, class PairForce>
     void move(int chunk, real dt, PairForce const& pair_force, record_column<real> const* extra) {
         std::size_t const first = std::size_t(chunk) * interactions_type::chunk_particles;
@@ -575,13 +597,73 @@ private:
     /// Before the first step, whose length may not be known yet, the time is that of the start.
     moment now() const { return {step_, step_ == clock_.step ? clock_.time : time()}; }
 
-    void follow_critical_step() {
-        if (parameters_.time_step > 0) return;
-        double const found = parameters_.safety * limits().critical();
-        // A step that could be a little longer is not worth a change; one that has to be shorter always is.
-        if (!std::isfinite(found) || (found >= *time_step_ && found <= 1.01 * *time_step_)) return;
+    bool chooses_step() const noexcept { return !(parameters_.time_step > 0); }
+    /// Whether the bound is looked at during the run.
+    bool minds_step() const noexcept { return chooses_step() || !parameters_.allow_unstable_step; }
+
+    time_step_limits find_limits_of(contact_assumption const& assumed) const {
+        limit_scratch<dim> scratch;
+        return find_limits<Model>(store_, interactions_, walls_, fluid_.get(), parameters_.damping, assumed, scratch);
+    }
+    contact_assumption next_assumption(bool wide = false) const {
+        return control_.next_assumption(store_, interactions_, walls_, chooses_step(), wide, double(guards_.smallest_radius()),
+                                        filled());
+    }
+    /// What contacts may become, for control_.
+    void look_ahead(double speed, double overlap) const {
+        control_.look_ahead(store_, interactions_, walls_, parameters_.damping, speed, overlap, chooses_step());
+    }
+    /// The step for a critical one: where nothing counted has a stiffness, that of a contact which may form, s. At the
+    /// present speeds nothing moves further than half of what checked_motion() allows.
+    double chosen_step(double critical) const {
+        double step = parameters_.safety * (std::isfinite(critical) ? critical : control_.forecast().first_contact());
+        if (!std::isfinite(step)) return step;
+        for (std::size_t k = 0; k < store_.size(); ++k) {
+            double const path = double(norm(store_.velocity(k))) * step, most = 0.05 * double(store_.radius(k));
+            if (path > most) step *= most / path;
+        }
+        return std::min(step, 0.05 * double(guards_.smallest_radius()) / walls_.fastest_next());
+    }
+    void looked(contact_assumption const& assumed, double rigorous) const {
+        double const accurate = chooses_step() ? 1.3 * parameters_.safety * control_.forecast().first_contact()
+                                               : std::numeric_limits<double>::infinity();
+        control_.looked(assumed, *time_step_, rigorous, accurate, chooses_step(), filled());
+        interactions_.watch_overlaps(control_.assumed().overlap);
+    }
+    void change_step(double step) {
         clock_ = {time(), step_, clock_.last};
-        time_step_ = found;
+        time_step_ = step;
+    }
+
+    /// Looks for the bound again, as contacts have formed or got deeper: a step of our choice follows it, one that was
+    /// asked for and is not safe any more ends the run.
+    void mind_step() {
+        auto const look = [&](contact_assumption const& at) {
+            return find_limits<Model>(store_, interactions_, walls_, fluid_.get(), parameters_.damping, at, scratch_);
+        };
+        auto assumed = next_assumption(control_.cannot_wait());
+        auto found = look(assumed);
+        if (!chooses_step() && control_.cannot_wait() && !(*time_step_ <= found.rigorous)) {
+            // What is near may pass: only what is about to touch ends a run.
+            assumed = next_assumption();
+            found = look(assumed);
+        }
+        double const critical = found.rigorous; // that of the fluid alone: mind_flow_limit()
+        look_ahead(std::max(double(moved_) / clock_.last, walls_.fastest()), assumed.overlap);
+        if (chooses_step()) {
+            double const wanted = chosen_step(critical), now = *time_step_, most = parameters_.safety * found.flow;
+            // A step that could be a little longer is not worth a change.
+            bool const shrinks = parameters_.follow_critical_step ? wanted < 0.99 * now || now > critical : now > critical;
+            bool const grows = parameters_.follow_critical_step && std::min(wanted, most) > 1.05 * now;
+            if ((shrinks || grows) && std::isfinite(wanted)) change_step(std::min(wanted, most));
+        } else if (!(*time_step_ <= critical) && !parameters_.allow_unstable_step) {
+            throw_unstable(store_, now(), -1,
+                           "the time step of " + to_text(*time_step_) + " s is above the stable limit, which is " +
+                               to_text(critical) + " s by now",
+                           "contacts have formed or become stiffer, or bonds have failed: a step that is not given follows "
+                           "the limit; allow_unstable_step goes on without");
+        }
+        looked(assumed, found.rigorous);
     }
 
     /// Where throats have opened, or pores were made anew, the step may be too long for an explicit flow: one of our
@@ -596,8 +678,7 @@ private:
                                    " s by now, less than " + to_text(*time_step_) + " s",
                                "throats have opened or pores become small; flow.substeps = 0 takes as many flow steps as "
                                "are safe, implicit flow has no limit");
-            clock_ = {time(), step_, clock_.last};
-            time_step_ = parameters_.safety * limits().critical();
+            change_step(parameters_.safety * limits().critical());
         }
     }
 
@@ -621,14 +702,19 @@ private:
         if (time_step_) return;
         if constexpr (has_fluid<Model>)
             if (!filled()) throw std::logic_error("simulation: the model has a fluid but fill_pores() was not called");
-        time_step_limits found = limits();
+        control_.reset(filled());
+        auto const assumed = next_assumption();
+        time_step_limits found = find_limits_of(assumed);
         bool const given = parameters_.time_step > 0;
+        double speed = walls_.fastest_next();
+        for (std::size_t k = 0; k < store_.size(); ++k) speed = std::max(speed, double(norm(store_.velocity(k))));
+        look_ahead(speed, assumed.overlap);
         if (planned_steps_ > 0 && std::isfinite(found.rigorous)) {
             // Which throats matter depends on the length of the run, and that on the step of the particles.
             time_step_ = given ? parameters_.time_step : parameters_.safety * found.rigorous;
             skip_idle_throats();
             time_step_.reset();
-            found = limits();
+            found = find_limits_of(assumed);
         }
         double const critical = found.critical();
         if (given && !parameters_.allow_unstable_step && !(parameters_.time_step <= critical))
@@ -637,13 +723,15 @@ private:
                        (found.rigorous <= found.flow ? "the particles, with rotation and fluid stiffness"
                                                      : "the flow between pores") +
                        "; eq. 9 gives " + to_text(found.equation_9) + " s), or allow_unstable_step");
-        if (!given && !std::isfinite(critical))
+        double const step = given ? parameters_.time_step : chosen_step(critical);
+        if (!std::isfinite(step))
             refuse("time_step", 0.0, "given: without any stiffness there is no critical time step");
-        time_step_ = given ? parameters_.time_step : parameters_.safety * critical;
+        time_step_ = step;
+        looked(assumed, found.rigorous);
     }
 
     parameters parameters_;
-    interactions_type interactions_;
+    mutable interactions_type interactions_; // mutable: how deep overlaps are watched is settled with the time step
     wall_contacts<contact_law_type, damping_type, real, dim> walls_;
     load_set<real, dim> loads_;
     mutable fluid_coupling<Model> fluid_; // mutable: which throats are left out is settled with the time step
@@ -659,6 +747,8 @@ private:
     prescribed_motion<dim> motions_;
     rigid_plates<real, dim> plates_;
     mutable std::optional<double> time_step_;
+    mutable step_control<Model> control_;
+    limit_scratch<dim> scratch_;
     /// When the present time step began to apply, and how long the last step was.
     struct step_clock {
         double time;
@@ -667,6 +757,7 @@ private:
     };
     step_clock clock_{parameters_.start_time, 0, 0};
     set_up_record set_up_; ///< up to the first step
+    real moved_ = 0; ///< upper bound of the path of every particle in the last step, m
     long long step_ = 0, planned_steps_ = 0, planned_end_ = 0;
 };
 

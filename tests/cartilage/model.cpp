@@ -81,8 +81,12 @@ TEST_CASE("the time step is the share of the bound that is asked for") {
     CHECK_THAT(usual->time_step(), WithinRel(0.4 * usual->limits().critical(), 1e-6));
     o.step_share = 0.8;
     CHECK_THAT(run<dry_model>(o, 1)->time_step(), WithinRel(2 * usual->time_step(), 1e-12));
-    // One that is asked for is taken, stable or not.
+    // One that is asked for is taken; one that is not stable only where that is asked for, too.
     o.time_step_ps = 14.39;
+    CHECK_THROWS_WITH(load_specimen<dry_model>(build_specimen(o), o),
+                      contains_text("--time-step: time_step = 1.439e-11: must be at most the stable limit") &&
+                          contains_text("--allow-unstable-step"));
+    o.allow_unstable_step = true;
     auto const asked = load_specimen<dry_model>(build_specimen(o), o);
     CHECK_THAT(asked->time_step(), WithinRel(14.39e-12, 1e-12));
     CHECK(asked->time_step() > asked->limits().critical());

@@ -57,8 +57,13 @@ set(EXCEPTIONS
   "pores/implicit_flow.hpp depth"
   # All that a user calls, and the step, on one page.
   "simulation.hpp lines"
+  # A plane has places, paths, forces and stiffnesses, as all pairs have in four headers.
+  "interactions/walls.hpp lines"
+  # One list and what it is judged by.
+  "neighbors/verlet_list.hpp lines"
   "simulation/parameters.hpp depth"
   "simulation/limits.hpp depth"
+  "simulation/step_control.hpp depth"
   "simulation/fluid_coupling.hpp depth"
   # All guards, one of which looks at the pores.
   "simulation/run_guards.hpp depth"

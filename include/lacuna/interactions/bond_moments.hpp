@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <lacuna/core/error.hpp>
+#include <lacuna/interactions/law_stiffness.hpp>
 #include <lacuna/interactions/pair_loop.hpp>
 #include <lacuna/laws/bond_values.hpp>
 
@@ -39,6 +40,20 @@ void visit_moment_stiffness(particle_store<Real, Dim> const& store, Table const&
                                                           store.radius(i), store.radius(j), Real(norm(arm)));
         visit(i, j, arm / norm(arm), moment_stiffness<double>{double(k.bending), double(k.twisting)});
     }
+}
+
+/// Calls visit(i, j, normal, moment_stiffness) for the contacts of a law with moments that touch, or may under an
+/// assumption.
+template <class Law, class Table, class Real, int Dim, class Visit>
+void visit_moment_stiffness(particle_store<Real, Dim> const& store, Table const& contacts,
+                            parameter_table<Law, Real> const& parameters, contact_assumption const& assumed,
+                            Visit const& visit) {
+    visit_contacts<Law>(store, contacts, assumed, [&](std::size_t s, std::size_t i, std::size_t j, auto const& arm,
+                                                      double distance, double) {
+        auto const k = Law::template against_turning<Dim>(parameters.row[std::size_t(contacts.parameter()[s])],
+                                                          store.radius(i), store.radius(j), Real(distance));
+        visit(i, j, arm / distance, moment_stiffness<double>{double(k.bending), double(k.twisting)});
+    });
 }
 
 /// Gives each bond with values of its own a row of its own in the table of parameters.

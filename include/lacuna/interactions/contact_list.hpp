@@ -171,4 +171,19 @@ template <class Real, int Dim, class Table>
     return found;
 }
 
+/// Of the contacts of one pack, the largest overlap as a share of the smaller radius; laws that stiffen.
+template <class Real, int Dim, class Table>
+[[gnu::noinline]] Real deepest_of_pack(particle_store<Real, Dim> const& store, Table const& contacts, std::size_t pack) {
+    Real deepest = 0;
+    for (std::size_t s = pack * Table::width; s < (pack + 1) * Table::width; ++s) {
+        if (contacts.is_filler(s, store.size())) continue;
+        auto const i = std::size_t(contacts.i(s)), j = std::size_t(contacts.j(s));
+        pair_motion<Real, Dim> const still{Real(0), store.radius(i), store.radius(j), {}, Real(0)};
+        Real const distance = norm(store.nearest(store.position(j) - store.position(i)));
+        Real const overlap = touching_distance_of(still, contacts.get(s).state) - distance;
+        deepest = std::max(deepest, overlap / std::min(still.radius_i, still.radius_j));
+    }
+    return deepest;
+}
+
 } // namespace lacuna

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <lacuna/interactions/bond_failure.hpp>
@@ -122,8 +124,12 @@ public:
                 [&](std::size_t pack) {
                     if (auto const found = find_deep_overlap(store, contacts_, pack, deepest_); found[0] >= 0)
                         deep_overlap_[std::size_t(chunk)] = found;
+                    if constexpr (stiffens<ContactLaw, Dim>) {
+                        auto& share = overlap_share_[std::size_t(chunk)];
+                        share = std::max(share, deepest_of_pack(store, contacts_, pack));
+                    }
                 },
-                deepest_);
+                deepest_, watched_);
     }
     /// As force_store::with_sums().
     template <class Use>
@@ -136,12 +142,14 @@ public:
         if constexpr (carries_moment<BondLaw>) lacuna::add_moments(store, bonds_, moments_, out);
         if constexpr (carries_moment<ContactLaw>) lacuna::add_moments(store, contacts_, contact_moments_, out);
     }
-    /// Calls visit(i, j, normal, moment_stiffness) for every bond, and contact candidate, that carries moments.
+    /// Calls visit(i, j, normal, moment_stiffness) for the same, of laws that carry moments.
     template <class Visit>
-    void for_each_moment_stiffness([[maybe_unused]] store_type const& store, [[maybe_unused]] Visit const& visit) const {
+    void for_each_moment_stiffness([[maybe_unused]] store_type const& store,
+                                   [[maybe_unused]] contact_assumption const& assumed,
+                                   [[maybe_unused]] Visit const& visit) const {
         if constexpr (carries_moment<BondLaw>) visit_moment_stiffness<BondLaw>(store, bonds_, bond_parameters_, visit);
         if constexpr (carries_moment<ContactLaw>)
-            visit_moment_stiffness<ContactLaw>(store, contacts_, contact_parameters_, visit);
+            visit_moment_stiffness<ContactLaw>(store, contacts_, contact_parameters_, assumed, visit);
     }
 
     /// Failures of the step just evaluated, in the order of the pairs; to be completed with step and time.
@@ -182,15 +190,35 @@ public:
             if (pair[0] >= 0) return pair;
         return {-1, -1};
     }
+    /// Lets evaluations note contacts that overlap by more than this share of the smaller radius; laws that stiffen.
+    void watch_overlaps(double share) noexcept { watched_ = Real(share); }
+    /// The largest overlap that was noted since the last call, as a share of the smaller radius; 0: none.
+    double take_deepest() noexcept {
+        double deepest = 0;
+        if constexpr (stiffens<ContactLaw, Dim>)
+            for (auto& share : overlap_share_) deepest = std::max(deepest, double(std::exchange(share, Real(0))));
+        return deepest;
+    }
+    /// How much two particles that are no pair may still come closer before they could touch, m.
+    double remaining() const noexcept {
+        return has_contacts() ? double(neighbors_.remaining())
+                              : std::numeric_limits<double>::infinity();
+    }
+    bool has_contacts() const noexcept { return !is_absent<ContactLaw> && parameters_.contacts; }
 
     /// Calls visit(i, j, normal, normal_stiffness, shear_stiffness, prestress, lever_i, lever_j) for every bond and
-    /// for every contact candidate as if it touched: what a bound of the stable time step has to count with.
+    /// for the contacts that touch or may under an assumption: what a bound of the stable time step has to count with.
     /// Stiffnesses in N/m are the laws' own derivatives.
     template <class Visit>
-    void for_each_stiffness(store_type const& store, Visit const& visit) const {
-        if constexpr (!is_absent<BondLaw>) visit_stiffness<BondLaw>(store, bonds_, bond_parameters_, true, visit);
+    void for_each_stiffness(store_type const& store, contact_assumption const& assumed, Visit const& visit) const {
+        if constexpr (!is_absent<BondLaw>) visit_stiffness<BondLaw, true>(store, bonds_, bond_parameters_, assumed, visit);
         if constexpr (!is_absent<ContactLaw>)
-            visit_stiffness<ContactLaw>(store, contacts_, contact_parameters_, false, visit);
+            visit_stiffness<ContactLaw, false>(store, contacts_, contact_parameters_, assumed, visit);
+    }
+    /// Calls visit(contact_seen, pair_stiffness) for the contacts that touch or may under an assumption.
+    template <class Visit>
+    void for_each_depth(store_type const& store, contact_assumption const& assumed, Visit const& visit) const {
+        visit_depths<ContactLaw>(store, contacts_, contact_parameters_, assumed, visit);
     }
 
     /// Offset in force_column() of the force record of the pair (i, j), internal indices in any order; -1 if it is no
@@ -282,7 +310,6 @@ private:
         std::sort(held_.begin(), held_.end(), pair_before<neighbor_pair>);
         neighbors_.add(held_);
     }
-    bool has_contacts() const noexcept { return !is_absent<ContactLaw> && parameters_.contacts; }
     std::int32_t parameter_row(store_type const& store, std::int32_t i, std::int32_t j) const noexcept {
         return store.material(std::size_t(i)) * materials_ + store.material(std::size_t(j));
     }
@@ -323,6 +350,7 @@ private:
         chunk_events_.resize(chunks);
         energy_.resize(chunks);
         deep_overlap_.assign(chunks, {-1, -1});
+        overlap_share_.assign(chunks, Real(0));
     }
 
     [[gnu::noinline]] void break_bonds(store_type const& store, int chunk, std::size_t pack, Real time_step) {
@@ -361,6 +389,8 @@ private:
     std::vector<std::array<pair_energy, 3>> energy_; // of bonds, of contacts, correction for bonds that failed
     std::vector<std::array<std::int32_t, 2>> deep_overlap_;
     Real deepest_ = 1; ///< overlap over the smaller radius, beyond which it is one of them
+    std::vector<Real> overlap_share_; ///< by chunk, the deepest overlap beyond watched_, over the smaller radius
+    Real watched_ = 1;
     std::array<double, 2> fracture_energy_{};
 };
 

@@ -16,21 +16,24 @@ struct pair_stiffness {
     double normal, shear;
 };
 
+/// What a bound of the stable time step assumes of contacts until it is looked for again.
+struct contact_assumption {
+    double gap = 0;     ///< pairs that are further apart, m, do not touch
+    double overlap = 0; ///< of laws that stiffen: contacts overlap by this share of the smaller radius, or more if they do now
+};
+
 /// Tangent of a law by its own dual-number derivatives, at the given distance and without slip.
 ///
-/// A contact that is open is read as if it just touched, or overlapped as much as its law expects, because it may
-/// close before the next look. Coupling
-/// between normal and shear enters both, which makes the diagonal pair an upper bound of the full tangent.
+/// A contact that is open is read as if it just touched. Coupling between normal and shear enters both, which makes the
+/// diagonal pair an upper bound of the full tangent.
 /// \param bonded the pair was made at this distance, without force (a bond); else it touches at r_i + r_j
+/// \param least_overlap of a contact, m
 template <class Law, int Dim, class Real>
 pair_stiffness law_stiffness(typename Law::template parameters<Real> const& parameters, double distance,
-                             double radius_i, double radius_j, bool bonded) {
+                             double radius_i, double radius_j, bool bonded, double least_overlap = 0) {
     using number = dual<double, 2>;
     double const touching = radius_i + radius_j;
-    double const smaller = radius_j > 0 ? std::min(radius_i, radius_j) : radius_i;
-    double overlap = touching * 1e-6;
-    if constexpr (requires { Law::expected_overlap; }) overlap = std::max(overlap, smaller * Law::expected_overlap);
-    double const at = bonded ? distance : std::min(distance, touching - overlap);
+    double const at = bonded ? distance : std::min(distance, touching - std::max(least_overlap, touching * 1e-6));
     pair_motion<number, Dim> motion{};
     motion.distance = number::variable(at, 0);
     motion.radius_i = number(radius_i);
@@ -46,12 +49,85 @@ pair_stiffness law_stiffness(typename Law::template parameters<Real> const& para
             std::fabs(answer.shear_force[0].derivative[1]) + coupling};
 }
 
-/// Calls visit(i, j, normal, normal_stiffness, shear_stiffness, prestress, lever_i, lever_j) for every pair of a
-/// table; the prestress is the pair's force over its distance. N/m, m.
-/// \param bonded see law_stiffness()
+/// The smaller radius of a pair, m; at a wall, which has none, the particle's.
+inline double smaller_radius(double radius_i, double radius_j) noexcept {
+    return radius_j > 0 ? std::min(radius_i, radius_j) : radius_i;
+}
+
+/// Tangent of a contact that overlaps by `overlap`, m, negative for a gap, under an assumption.
+template <class Law, int Dim, class Real>
+pair_stiffness contact_stiffness(typename Law::template parameters<Real> const& parameters, double overlap,
+                                 double radius_i, double radius_j, contact_assumption const& assumed) {
+    double const least = stiffens<Law, Dim> ? assumed.overlap * smaller_radius(radius_i, radius_j) : 0;
+    return law_stiffness<Law, Dim>(parameters, radius_i + radius_j - overlap, radius_i, radius_j, false, least);
+}
+
+/// A contact as the search for the overlaps to come sees it.
+struct contact_seen {
+    double overlap;        ///< m; negative: a gap
+    double radius;         ///< the smaller one, m
+    double effective_mass; ///< kg
+    double closing;        ///< speed at which the two come together, m/s; negative: apart
+};
+
+/// Calls use(slot, i, j, arm, distance, overlap) for the contacts of a table that touch or are not further apart than
+/// the gap of an assumption; the arm goes from i to j, m.
+template <class Law, class Real, int Dim, class Table, class Use>
+void visit_contacts(particle_store<Real, Dim> const& store, Table const& table, contact_assumption const& assumed,
+                    Use const& use) {
+    for (int c = 0; c < table.chunks(); ++c)
+        for (std::size_t s = table.first_slot(c), end = s + table.chunk_size(c); s < end; ++s) {
+            auto const i = std::size_t(table.i(s)), j = std::size_t(table.j(s));
+            vec<double, Dim> arm{};
+            for (int axis = 0; axis < Dim; ++axis)
+                arm[axis] = double(store.position(j)[axis]) - double(store.position(i)[axis]);
+            arm = store.nearest(arm);
+            pair_motion<Real, Dim> const still{Real(0), store.radius(i), store.radius(j), {}, Real(0)};
+            double const touching = double(touching_distance_of(still, table.get(s).state)), reach = touching + assumed.gap;
+            double const squared = squared_norm(arm);
+            if (!(squared <= reach * reach)) continue;
+            double const distance = std::sqrt(squared);
+            use(s, i, j, arm, distance, touching - distance);
+        }
+}
+
+/// Calls visit(contact_seen) for the contacts of a table that touch, or may under an assumption.
 template <class Law, class Real, int Dim, class Table, class Parameters, class Visit>
+void visit_depths(particle_store<Real, Dim> const& store, Table const& table, Parameters const& parameters,
+                  contact_assumption const& assumed, Visit const& visit) {
+    visit_contacts<Law>(store, table, assumed, [&](std::size_t s, std::size_t i, std::size_t j, auto const& arm,
+                                                   double distance, double overlap) {
+        double const ri = double(store.radius(i)), rj = double(store.radius(j));
+        double const mi = double(store.mass(i)), mj = double(store.mass(j));
+        auto const way = convert<double>(store.velocity(i)) - convert<double>(store.velocity(j));
+        visit(contact_seen{overlap, smaller_radius(ri, rj), mi * mj / (mi + mj), dot(way, arm) / distance},
+              contact_stiffness<Law, Dim>(parameters.row[std::size_t(table.parameter()[s])], overlap, ri, rj, assumed));
+    });
+}
+
+/// Calls visit(i, j, normal, normal_stiffness, shear_stiffness, prestress, lever_i, lever_j) for every bond of a table,
+/// or for the contacts that touch or may under an assumption; the prestress is the pair's force over its distance. N/m, m.
+/// \param bonded see law_stiffness()
+template <class Law, bool Bonded, class Real, int Dim, class Table, class Parameters, class Visit>
 void visit_stiffness(particle_store<Real, Dim> const& store, Table const& table, Parameters const& parameters,
-                     bool bonded, Visit const& visit) {
+                     contact_assumption const& assumed, Visit const& visit) {
+    auto const tell = [&](std::size_t s, std::size_t i, std::size_t j, auto const& arm, double distance,
+                          [[maybe_unused]] double overlap) {
+        double const ri = double(store.radius(i)), rj = double(store.radius(j));
+        auto const& row = parameters.row[std::size_t(table.parameter()[s])];
+        pair_stiffness k;
+        if constexpr (Bonded)
+            k = law_stiffness<Law, Dim>(row, distance, ri, rj, true);
+        else
+            k = contact_stiffness<Law, Dim>(row, overlap, ri, rj, assumed);
+        pair_motion<Real, Dim> const still{Real(distance), Real(ri), Real(rj), {}, Real(0)};
+        auto const force = Law::evaluate(row, still, table.get(s).state);
+        double const prestress = std::hypot(double(force.normal_force), double(norm(force.shear_force))) / distance;
+        double lever_i = distance * ri / (ri + rj), lever_j = distance * rj / (ri + rj);
+        if constexpr (requires { Law::shears_in_the_middle; }) lever_i = lever_j = distance / 2;
+        visit(i, j, arm / distance, k.normal, k.shear, prestress, lever_i, lever_j);
+    };
+    if constexpr (!Bonded) return visit_contacts<Law>(store, table, assumed, tell);
     for (std::size_t s = 0; s < table.slots(); ++s) {
         if (table.is_filler(s, store.size())) continue;
         auto const i = std::size_t(table.i(s)), j = std::size_t(table.j(s));
@@ -59,14 +135,7 @@ void visit_stiffness(particle_store<Real, Dim> const& store, Table const& table,
         for (int axis = 0; axis < Dim; ++axis)
             arm[axis] = double(store.position(j)[axis]) - double(store.position(i)[axis]);
         arm = store.nearest(arm);
-        double const distance = norm(arm), ri = double(store.radius(i)), rj = double(store.radius(j));
-        auto const k = law_stiffness<Law, Dim>(parameters.row[std::size_t(table.parameter()[s])], distance, ri, rj, bonded);
-        pair_motion<Real, Dim> const still{Real(distance), Real(ri), Real(rj), {}, Real(0)};
-        auto const force = Law::evaluate(parameters.row[std::size_t(table.parameter()[s])], still, table.get(s).state);
-        double const prestress = std::hypot(double(force.normal_force), double(norm(force.shear_force))) / distance;
-        double lever_i = distance * ri / (ri + rj), lever_j = distance * rj / (ri + rj);
-        if constexpr (requires { Law::shears_in_the_middle; }) lever_i = lever_j = distance / 2;
-        visit(i, j, arm / distance, k.normal, k.shear, prestress, lever_i, lever_j);
+        tell(s, i, j, arm, norm(arm), 0.0);
     }
 }
 

@@ -176,8 +176,9 @@ enum class pair_kind { contact, bond };
 /// \param moments where the moments on the first of each pair go, rotation_dim numbers a slot; laws with moments only
 /// \param ahead what else to ask the memory for meanwhile
 /// \param on_event called as on_event(pack) after a pack in which a bond has failed, or two particles in contact overlap
-///        by more than `deepest`; rare
+///        by more than `deepest` or `watched`; rare
 /// \param deepest over the smaller radius, 1
+/// \param watched of laws that stiffen: the overlap that a contact is not to exceed unnoticed, over the smaller radius, 1
 template <pair_kind Kind, bool WithEnergy, class Law, class Damping, class Domain, class Real, int Dim, class OnEvent>
 [[gnu::noinline, gnu::flatten]] void evaluate_chunk(pair_table<Law, Real, Dim>& table, int chunk,
                                       parameter_table<Law, Real> const& parameters,
@@ -185,7 +186,8 @@ template <pair_kind Kind, bool WithEnergy, class Law, class Damping, class Domai
                                       particle_store<Real, Dim> const& store, Real time_step, Real* forces,
                                       force_places::row const& places, Real* normals,
                                       [[maybe_unused]] Real* moments, read_ahead::plan& ahead, pair_energy& energy,
-                                      OnEvent const& on_event, [[maybe_unused]] Real deepest = Real(1)) {
+                                      OnEvent const& on_event, [[maybe_unused]] Real deepest = Real(1),
+                                      [[maybe_unused]] Real watched = Real(1)) {
     using lanes = typename pair_table<Law, Real, Dim>::lanes;
     constexpr int W = lanes::width;
     constexpr std::size_t stride = 4 * pair_forces<Real, Dim>::records_per_pair;
@@ -267,6 +269,12 @@ template <pair_kind Kind, bool WithEnergy, class Law, class Damping, class Domai
         }
         if constexpr (Kind == pair_kind::bond) {
             if (any(answer.broken)) [[unlikely]]
+                on_event(p);
+        } else if constexpr (stiffens<Law, Dim>) {
+            auto smaller = min(pair.radius_i, pair.radius_j);
+            auto deep = frame.motion.distance + smaller * lanes(deepest) < pair.radii ||
+                        frame.motion.distance + smaller * lanes(watched) < touching_distance_of(frame.motion, state);
+            if (any(deep)) [[unlikely]]
                 on_event(p);
         } else {
             if (any(frame.motion.distance + min(pair.radius_i, pair.radius_j) * lanes(deepest) < pair.radii)) [[unlikely]]

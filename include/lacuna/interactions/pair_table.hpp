@@ -143,6 +143,8 @@ public:
         return std::accumulate(chunk_pairs_.begin(), chunk_pairs_.end(), std::size_t(0));
     }
     int chunks() const noexcept { return int(chunk_pairs_.size()); }
+    /// Number of pairs of a chunk, without fillers; they begin at first_slot().
+    std::size_t chunk_size(int chunk) const noexcept { return chunk_pairs_[std::size_t(chunk)]; }
     std::size_t first_pack(int chunk) const noexcept { return chunk_begin_[std::size_t(chunk)]; }
     /// End of the packs of a chunk that are in use.
     std::size_t end_pack(int chunk) const noexcept {

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 #include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include <lacuna/interactions/law_stiffness.hpp>
@@ -114,6 +116,8 @@ public:
             frame.motion.slip = slip(velocity, i.spin, normal, distance, time_step);
             turn(n.state, frame, i.spin, time_step);
             auto const& law = row_of(store, n);
+            if constexpr (stiffens<ContactLaw, Dim>)
+                deepest_ = std::max(deepest_, double((touching_distance_of(frame.motion, n.state) - distance) / i.radius));
             auto const answer = answer_to(law, frame, n.state, i.spin, time_step);
             Real normal_force = answer.normal_force;
             if (normal_force < 0)
@@ -179,7 +183,13 @@ public:
         walls_path_ += Real(farthest);
         return power;
     }
-    /// Largest speed of a wall in the last step, m/s.
+    /// Largest speed of a wall in the next step, m/s.
+    double fastest_next() const noexcept {
+        double most = 0;
+        for (auto const& m : motion_) most = std::max(most, norm(m.next));
+        return most;
+    }
+    /// The same of the last step, m/s.
     double fastest() const noexcept {
         double most = 0;
         for (auto const& m : motion_) most = std::max(most, norm(m.velocity));
@@ -187,28 +197,47 @@ public:
     }
     /// \}
 
-    /// Calls visit(particle, normal, normal_stiffness, shear_stiffness, lever) for each particle that may touch a
-    /// wall, as if it did.
-    template <class Visit>
-    void for_each_stiffness(particle_store<Real, Dim> const& store, Visit const& visit) const {
-        for (auto const& n : near_) {
-            double const r = double(store.radius(n.particle));
-            double const distance = double(height(store.position(n.particle), n.plane));
-            auto const k = law_stiffness<ContactLaw, Dim>(row_of(store, n), distance, r, 0.0, false);
-            visit(n.particle, walls_[n.plane].normal, k.normal, k.shear, std::max(distance, 0.0));
-        }
+    /// How far particles and walls may still come together before one touches that is not listed, m.
+    double remaining() const noexcept {
+        Real least = std::numeric_limits<Real>::infinity();
+        for (std::size_t b = 0; b < path_.size(); ++b) least = std::min(least, room_[b] - path_[b]);
+        return std::max(double(least) - double(walls_path_), 0.0);
     }
-    /// Calls visit(particle, normal, moment_stiffness) for each particle that may touch a wall; laws with moments.
+    /// What the largest overlap in the evaluations since the last call was, as a share of the radius; laws that stiffen.
+    double take_deepest() noexcept { return std::exchange(deepest_, 0.0); }
+
+    /// Calls visit(particle, normal, normal_stiffness, shear_stiffness, lever) for each particle that touches a wall, or
+    /// may under an assumption.
+    template <class Visit>
+    void for_each_stiffness(particle_store<Real, Dim> const& store, contact_assumption const& assumed, Visit const& visit) const {
+        visit_near(store, assumed, [&](near_wall const& n, double r, double distance, double overlap) {
+            auto const k = contact_stiffness<ContactLaw, Dim>(row_of(store, n), overlap, r, 0.0, assumed);
+            visit(n.particle, walls_[n.plane].normal, k.normal, k.shear, std::max(distance, 0.0));
+        });
+    }
+    /// Calls visit(contact_seen, pair_stiffness) for the same.
+    template <class Visit>
+    void for_each_depth(particle_store<Real, Dim> const& store, contact_assumption const& assumed, Visit const& visit) const {
+        visit_near(store, assumed, [&](near_wall const& n, double r, double, double overlap) {
+            auto const way = motion_[n.plane].next - convert<double>(store.velocity(n.particle));
+            visit(contact_seen{overlap, r, double(store.mass(n.particle)), dot(way, walls_[n.plane].normal)},
+                  contact_stiffness<ContactLaw, Dim>(row_of(store, n), overlap, r, 0.0, assumed));
+        });
+    }
+    /// Calls visit(particle, normal, moment_stiffness) for the same; laws with moments.
     template <class Visit>
     void for_each_moment_stiffness([[maybe_unused]] particle_store<Real, Dim> const& store,
+                                   [[maybe_unused]] contact_assumption const& assumed,
                                    [[maybe_unused]] Visit const& visit) const {
         if constexpr (carries_moment<ContactLaw>)
-            for (auto const& n : near_) {
-                double const r = double(store.radius(n.particle));
+            visit_near(store, assumed, [&](near_wall const& n, double r, double, double) {
                 auto const k = ContactLaw::template against_turning<Dim>(row_of(store, n), Real(r), Real(0), Real(r));
                 visit(n.particle, walls_[n.plane].normal, moment_stiffness<double>{double(k.bending), double(k.twisting)});
-            }
+            });
     }
+    std::size_t size() const noexcept { return walls_.size(); }
+    /// What the law reads of a particle's material against a wall.
+    auto const& parameters(std::size_t w, std::size_t material) const noexcept { return parameters_.row[w * materials_ + material]; }
     /// Writes or reads what a run changes.
     template <class Archive>
     void archive(Archive& ar, particle_store<Real, Dim> const& store) {
@@ -242,7 +271,17 @@ private:
         return clearance;
     }
     auto const& row_of(particle_store<Real, Dim> const& store, near_wall const& n) const noexcept {
-        return parameters_.row[n.plane * materials_ + std::size_t(store.material(n.particle))];
+        return parameters(n.plane, std::size_t(store.material(n.particle)));
+    }
+    /// Calls use(entry, radius, distance, overlap) for the particles that touch a wall or may under an assumption.
+    template <class Use>
+    void visit_near(particle_store<Real, Dim> const& store, contact_assumption const& assumed, Use const& use) const {
+        for (auto const& n : near_) {
+            pair_motion<Real, Dim> const still{Real(0), store.radius(n.particle), Real(0), {}, Real(0)};
+            double const distance = double(height(store.position(n.particle), n.plane));
+            double const overlap = double(touching_distance_of(still, n.state)) - distance;
+            if (-overlap <= assumed.gap) use(n, double(still.radius_i), distance, overlap);
+        }
     }
     /// What a contact in space remembers turns about the normal by the mean of the spins of particle and wall, which has
     /// none (MODEL.md section 2); the normal stays.
@@ -291,6 +330,7 @@ private:
     std::vector<wall_motion> motion_;
     std::vector<vec<double, Dim>> force_;
     std::vector<double> stiffness_;
+    double deepest_ = 0;
     Real reach_ = -1; ///< of the list; negative: none was made yet
     std::vector<Real> path_, room_; ///< of the particles of each block since the last look, and what it may be
     Real walls_path_ = 0;           ///< of the fastest wall, since update()

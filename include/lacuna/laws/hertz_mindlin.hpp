@@ -58,8 +58,8 @@ struct hertz_mindlin {
     template <class Value>
     static constexpr Value slack = 8 * std::numeric_limits<Value>::epsilon();
 
-    /// A bound of the stable time step counts with the stiffness at this overlap, as a share of the smaller radius, or
-    /// at the present one where that is larger.
+    /// A time step that is chosen for a run is made for contacts with this overlap at least, as a share of the smaller
+    /// radius; see contact_assumption.
     static constexpr double expected_overlap = 0.01;
 
     static parameters<double> combine(material const& a, material const& b, double /*thickness*/) {

@@ -83,6 +83,23 @@ auto dashpot_stiffness(P const& parameters, [[maybe_unused]] M const& motion, [[
         return Law::stiffness(parameters);
 }
 
+/// Whether a law's stiffness changes with the overlap.
+template <class Law, int Dim>
+inline constexpr bool stiffens = requires(typename Law::template parameters<double> const& parameters,
+                                          pair_motion<double, Dim> const& motion,
+                                          typename Law::template history<double, Dim> const& history) {
+    Law::stiffness(parameters, motion, history);
+};
+
+/// Distance at which a pair touches to its law: the one in its history, or r_i + r_j, m.
+template <class T, int Dim, class H>
+T touching_distance_of(pair_motion<T, Dim> const& motion, [[maybe_unused]] H const& history) {
+    if constexpr (requires { history.touching_distance; })
+        return history.touching_distance;
+    else
+        return motion.touching_distance();
+}
+
 namespace detail {
 template <class Law, int Dim>
 concept pair_law_common =

@@ -26,7 +26,14 @@ public:
     using point = vec<double, Dim>;
     using gradient = std::array<double, std::size_t(freedoms)>;
 
-    explicit frequency_bound(std::size_t particles) : root_mobility_(particles), block_(particles), beside_(particles) {}
+    frequency_bound() = default;
+    explicit frequency_bound(std::size_t particles) { reset(particles); }
+    /// No stiffness any more; allocates nothing for a number of particles that it had before.
+    void reset(std::size_t particles) {
+        root_mobility_.resize(particles);
+        block_.assign(particles, {});
+        beside_.assign(particles, {});
+    }
 
     /// Square roots come from here: inverse mass along `axis` (axis >= Dim: inverse moment of inertia), 0 if fixed.
     void set_mobility(std::size_t k, int axis, double mobility) { root_mobility_[k][std::size_t(axis)] = std::sqrt(mobility); }
@@ -91,19 +98,24 @@ public:
 
     /// Upper bound of omega_max, rad/s; 0 without any stiffness.
     double frequency() const {
-        double best = std::numeric_limits<double>::infinity();
-        for (double scale = 0.5; scale < 4.1; scale *= std::sqrt(2.0)) {
-            double largest = 0;
-            for (std::size_t k = 0; k < block_.size(); ++k)
-                for (int a = 0; a < freedoms; ++a) {
-                    double sums[2] = {beside_[k][std::size_t(2 * a)], beside_[k][std::size_t(2 * a + 1)]};
-                    for (int b = 0; b < freedoms; ++b) sums[b >= Dim] += std::fabs(block_[k][std::size_t(a * freedoms + b)]);
-                    double const row = a < Dim ? sums[0] + scale * sums[1] : sums[0] / scale + sums[1];
-                    // Written so that a sum that is not a number becomes the bound, and the step zero.
-                    if (!(row <= largest)) largest = row;
+        constexpr int scales = 7; // 0.5 to 4
+        std::array<double, scales> scale{0.5}, largest{};
+        for (std::size_t s = 1; s < scales; ++s) scale[s] = scale[s - 1] * std::sqrt(2.0);
+        for (std::size_t k = 0; k < block_.size(); ++k)
+            for (int a = 0; a < freedoms; ++a) {
+                double sums[2] = {beside_[k][std::size_t(2 * a)], beside_[k][std::size_t(2 * a + 1)]};
+                for (int b = 0; b < freedoms; ++b) sums[b >= Dim] += std::fabs(block_[k][std::size_t(a * freedoms + b)]);
+                // Written so that a sum that is not a number becomes the bound, and the step zero.
+                if (sums[0] + sums[1] == 0) continue;
+                for (std::size_t s = 0; s < scales; ++s) {
+                    double const row = a < Dim ? sums[0] + scale[s] * sums[1] : sums[0] / scale[s] + sums[1];
+                    if (!(row <= largest[s] || std::isnan(largest[s]))) largest[s] = row;
                 }
-            if (std::isnan(largest)) return std::numeric_limits<double>::infinity();
-            best = std::min(best, largest);
+            }
+        double best = std::numeric_limits<double>::infinity();
+        for (double const row : largest) {
+            if (std::isnan(row)) return std::numeric_limits<double>::infinity();
+            best = std::min(best, row);
         }
         return std::sqrt(best);
     }
@@ -119,9 +131,10 @@ public:
     /// \param drag_rate of a drag proportional to mass and velocity, 1/s
     double time_step(frequency_bound const& dashpots, double force_factor, double drag_rate = 0) const {
         double const stiff = frequency(), viscous = dashpots.frequency();
-        double const a = force_factor * stiff * stiff, b = force_factor * (viscous * viscous + drag_rate);
-        return 4 / (b + std::sqrt(b * b + 4 * a));
+        return step_of(force_factor * stiff * stiff, force_factor * (viscous * viscous + drag_rate));
     }
+    /// dt of dt^2 a + 2 dt b = 4, in the notation of time_step(), s.
+    static double step_of(double a, double b) noexcept { return 4 / (b + std::sqrt(b * b + 4 * a)); }
 
 private:
     /// Calls use(axis number, gradient of the turn about it): 0 for the normal, in space only.

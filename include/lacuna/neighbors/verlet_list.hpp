@@ -119,6 +119,12 @@ public:
 
     /// Counts the path of the particles of a block, of which none went further since the last call, m.
     void add_path(std::size_t block, real_type path) noexcept { path_[block] += path + grain_[block]; }
+    /// How much closer two particles that are no pair of the list may come before they could touch, at least, m.
+    real_type remaining() const noexcept {
+        real_type least = std::numeric_limits<real_type>::infinity();
+        for (std::size_t b = 0; b < path_.size(); ++b) least = std::min(least, room_[b] - path_[b]);
+        return std::max(2 * least, real_type(0));
+    }
     /// Whether the list may miss a pair, by the paths that were counted since it was built. Where these leave it open, it
     /// looks where the particles are.
     bool due(points_type const& points) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include <lacuna/interactions/law_stiffness.hpp>
 #include <lacuna/model.hpp>
 #include <lacuna/motion/stable_step.hpp>
 
@@ -13,7 +14,7 @@ namespace lacuna {
 
 /// The time step limits of a simulation in its present state, s.
 struct time_step_limits {
-    double equation_9 = 0;  ///< as the paper gives it: shortest distance over wave speed, from the stiffest light pair
+    double equation_9 = 0;  ///< as the paper gives it: shortest distance over wave speed, from the stiffest light pair counted
     double equation_19 = 0; ///< as the paper gives it, for the fluid; infinite without flow
     double flow = 0;        ///< rigorous, for the fluid alone with its substeps and interval; infinite without flow
     double rigorous = 0;    ///< rigorous, for particles with rotation, damping and the stiffness of the fluid
@@ -47,43 +48,54 @@ double flow_limit(Flow const& flow) {
     return double(flow.critical_time_step()) / flow.settings().interval;
 }
 
-/// Limits of the time step of the given parts in their present state (MODEL.md section 6).
+/// Where find_limits() works: kept from one call to the next, a call allocates nothing.
+template <int Dim>
+struct limit_scratch {
+    frequency_bound<Dim> stiff, viscous;
+};
+
+/// Limits of the time step of the given parts in their present state (MODEL.md section 6). Counted are bonds, contacts of
+/// particles and walls that touch or may under an assumption, their dashpots, other damping, and the fluid.
 /// \param flow nullptr without fluid
 template <class Model, class Store, class Interactions, class Walls, class Flow>
 time_step_limits find_limits(Store const& store, Interactions const& interactions, Walls const& walls, Flow const* flow,
-                             typename Model::damping::parameters const& damping) {
+                             typename Model::damping::parameters const& damping, contact_assumption const& assumed,
+                             limit_scratch<Model::dim>& scratch) {
     using damping_type = typename Model::damping;
     using point = vec<double, Model::dim>;
     constexpr bool dashed = damping_type::acts_on_pairs;
     auto const dashpot = [&](double stiffness, double mass_i, double mass_j) {
         return damping_type::pair_force(damping, stiffness, mass_i, mass_j, 1.0);
     };
-    frequency_bound<Model::dim> bound(store.size()), dashpots(dashed ? store.size() : 0);
+    auto &bound = scratch.stiff, &dashpots = scratch.viscous;
+    bound.reset(store.size());
+    dashpots.reset(dashed ? store.size() : 0);
     for (std::size_t k = 0; k < store.size(); ++k)
         for (int axis = 0; axis < frequency_bound<Model::dim>::freedoms; ++axis) {
             bound.set_mobility(k, axis, double(store.mobility(k, axis)));
             if constexpr (dashed) dashpots.set_mobility(k, axis, double(store.mobility(k, axis)));
         }
     double wave = std::numeric_limits<double>::infinity();
-    interactions.for_each_stiffness(store, [&](std::size_t i, std::size_t j, point const& normal, double kn, double ks,
-                                               double prestress, double li, double lj) {
+    interactions.for_each_stiffness(store, assumed, [&](std::size_t i, std::size_t j, point const& normal, double kn,
+                                                        double ks, double prestress, double li, double lj) {
         bound.add_pair(i, j, normal, kn, ks, prestress, li, lj);
         double const mass_i = double(store.mass(i)), mass_j = double(store.mass(j));
         if constexpr (dashed) dashpots.add_pair(i, j, normal, dashpot(kn, mass_i, mass_j), 0, 0, li, lj);
         wave = std::min(wave, std::sqrt(std::min(mass_i, mass_j) / kn));
     });
     interactions.for_each_moment_stiffness(
-        store, [&](std::size_t i, std::size_t j, point const& normal, moment_stiffness<double> const& k) {
+        store, assumed, [&](std::size_t i, std::size_t j, point const& normal, moment_stiffness<double> const& k) {
             bound.add_turning(i, j, normal, k.bending, k.twisting);
         });
-    walls.for_each_stiffness(store, [&](std::size_t k, point const& normal, double kn, double ks, double lever) {
+    walls.for_each_stiffness(store, assumed, [&](std::size_t k, point const& normal, double kn, double ks, double lever) {
         bound.add_support(k, normal, kn, ks, lever);
         double const twice = 2 * double(store.mass(k));
         if constexpr (dashed) dashpots.add_support(k, normal, dashpot(kn, twice, twice), 0, lever);
     });
-    walls.for_each_moment_stiffness(store, [&](std::size_t k, point const& normal, moment_stiffness<double> const& stiffness) {
-        bound.add_turning(k, normal, stiffness.bending, stiffness.twisting);
-    });
+    walls.for_each_moment_stiffness(
+        store, assumed, [&](std::size_t k, point const& normal, moment_stiffness<double> const& stiffness) {
+            bound.add_turning(k, normal, stiffness.bending, stiffness.twisting);
+        });
     time_step_limits result;
     result.equation_9 = wave;
     result.equation_19 = result.flow = std::numeric_limits<double>::infinity();

@@ -36,15 +36,15 @@ struct simulation_parameters {
     std::vector<wall<typename Model::contact_law, dim>> walls{};
     typename Model::flow::parameters flow{};
     remesh_parameters remeshing{};                  ///< of the pores, as the body deforms; models with flow
-    double time_step = 0;                           ///< s; 0: safety times the critical time step
+    double time_step = 0; ///< s; 0: safety times the critical time step. A given one that contacts make unsafe ends the run
     double safety = 0.2;                            ///< fraction of the critical time step
-    /// Without a time_step given: look for the critical one again whenever bonds or contact candidates have changed. A
-    /// look costs as much as some tens of steps; with few changes that is little, with many it is the larger part.
-    bool follow_critical_step = false;
+    /// Without a time_step given: the step follows the critical one as contacts form or get deeper and bonds fail. False:
+    /// it stays as it was found at the start, until the critical one is below it.
+    bool follow_critical_step = true;
     /// Velocities given to particles are those at the time of the positions: velocity Verlet. Else they are those of
     /// half a step before.
     bool velocities_on_time = starts_on_time<typename Model::integrator>;
-    /// Run even with a time step above the bound; then growing speeds and energy from nowhere end no run either.
+    /// Run even with a given time step above the bound; then growing speeds and energy from nowhere end no run either.
     bool allow_unstable_step = false;
     guard_parameters guards{};                      ///< what ends a run
     double start_time = 0;                          ///< s
