@@ -26,13 +26,7 @@ std::unique_ptr<runner> make_runner(scenario const& s) {
     if (s.out.checkpoint_every > 0)
         refuse("output.checkpoint_every", std::to_string(s.out.checkpoint_every), "0: this program was built without checkpoints");
 #endif
-    if (s.out.picture_every > 0 && s.simulation.dimension == 3)
-        refuse("output.picture_every", std::to_string(s.out.picture_every), "0: pictures are of the plane");
-    if (s.water && (s.water->bare() || !s.water->mechanical_coupling)) {
-        if (!s.loads.empty())
-            refuse("loads", "[...]", "left out: fluid.mechanical_coupling is false, particles do not move");
-        return make_network_runner(s);
-    }
+    if (s.flow_alone()) return make_network_runner(s);
     bool const single = s.simulation.single_precision;
     if (s.simulation.dimension == 3) return single ? make<3, float>(s) : make<3, double>(s);
     return single ? make<2, float>(s) : make<2, double>(s);
