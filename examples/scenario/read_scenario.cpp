@@ -11,6 +11,7 @@
 #include "particle_file.hpp"
 #include "probes.hpp"
 #include "scenario.hpp"
+#include "toml_depth.hpp"
 #include "toml_table.hpp"
 #include "touching.hpp"
 
@@ -408,6 +409,7 @@ std::string one_line(std::string_view text) {
 } // namespace
 
 scenario read_scenario(std::string_view text, std::string const& name, std::string const& folder) {
+    require_shallow(text, name);
     try {
         return read_tables(toml::parse(text), folder);
     } catch (toml::parse_error const& bad) {

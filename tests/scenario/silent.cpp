@@ -184,6 +184,8 @@ settings const rigid{
     {"fluid.initial_pressure", "3.0"},
     {"fluid.boundary", "\"drained\""},
     {"fluid.mechanical_coupling", "false"},
+    {"fluid.sources[].near", "[0.5, 0.3]"},
+    {"fluid.sources[].flow", "1.0"},
     {"probes[].quantity", "\"pore.pressure\""},
     {"probes[].near", "[0.5, 0.3]"},
 };
