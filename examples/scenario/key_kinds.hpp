@@ -43,6 +43,7 @@ struct rule {
 inline constexpr rule any{};
 inline constexpr rule positive{0, std::numeric_limits<double>::infinity(), true, "> 0"};
 inline constexpr rule not_negative{0, std::numeric_limits<double>::infinity(), false, ">= 0"};
+inline constexpr rule not_positive{-std::numeric_limits<double>::infinity(), 0, false, "<= 0"};
 inline constexpr rule fraction{0, 1, false, "from 0 to 1"};
 inline constexpr rule steps_or_none{0, 1e15, false, "from 0 (none) to 1e15 steps"};
 constexpr rule one_of(char const* choices) { return {0, 0, false, "", choices}; }

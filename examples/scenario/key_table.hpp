@@ -135,7 +135,7 @@ inline constexpr key keys[] = {
     {"fluid.sources[].near", kind::vector, "m", "", any, with_particles | no_pore, "the pore nearest to a point"},
     {"fluid.sources[].pore", kind::index, "", "", any, lasting_pores, "numbered as in summary.json"},
     {"fluid.sources[].flow", kind::number, "m^3/s", required, any, always, ""},
-    {"fluid.minimum_pressure", kind::number, "Pa", "never", {-1e300, 0, false, "<= 0"}, explicit_flow, "below it the fluid tears"},
+    {"fluid.minimum_pressure", kind::number, "Pa", "never", not_positive, explicit_flow, "below it the fluid tears"},
     {"fluid.remeshing", kind::table, "", "", any, moving | with_particles, "pores made anew as particles move"},
     {"fluid.remeshing.rule", kind::word, "", required, one_of("never|when_needed"), always,
      "when_needed: where the mesh does not fit the particles any more"},

@@ -118,7 +118,7 @@ std::string number_text(double x) { return lacuna::to_text(x).find_first_of(".en
 /// A good value of its kind.
 std::string sample(key const& row) {
     rule const& r = row.good;
-    double const inside = std::isfinite(r.least) && std::isfinite(r.most) ? 0.5 * (r.least + r.most) : 1;
+    double const inside = std::isfinite(r.least) && std::isfinite(r.most) ? 0.5 * (r.least + r.most) : std::isfinite(r.most) ? r.most - 1 : 1;
     switch (row.what) {
     case kind::table: return "{}";
     case kind::tables: return "[]";
