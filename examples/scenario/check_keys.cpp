@@ -9,12 +9,10 @@
 
 namespace lacuna_run {
 
-namespace {
-
-/// A file while it is checked: what tells which keys mean something.
-class checker {
+/// What a file says as a whole: which keys mean something in it.
+class file_meaning {
 public:
-    explicit checker(toml::table const& file) : file_(file) {
+    explicit file_meaning(toml::table const& file) : file_(file) {
         auto const whole = file_["simulation"]["dimension"].value<long long>();
         dimension_ = whole && *whole == 3 ? 3 : 2;
         for (key const& row : keys) {
@@ -29,13 +27,20 @@ public:
         for (auto const& [name, node] : t)
             if (std::none_of(known.begin(), known.end(), [&](auto const& one) { return one.first == name.str(); }))
                 refuse_unknown({&node, path_of(path, name.str())}, std::string(name.str()), known);
-        for (auto const& [name, row] : known) {
-            auto const* node = t.get(name);
-            if (node == nullptr) continue;
-            value const v{node, path_of(path, name)};
-            if (row->what != kind::tables || !node->is_array() || node->as_array()->empty()) must_mean_something(*row, v, t);
-            entry(*row, v, t);
-        }
+        // First what does not belong here at all, then what it is.
+        for (bool const meaning : {true, false})
+            for (auto const& [name, row] : known)
+                if (auto const* node = t.get(name)) {
+                    value const v{node, path_of(path, name)};
+                    meaning ? must_mean_something(*row, v, t) : entry(*row, v);
+                }
+    }
+
+    /// The first condition of a key that does not hold, or none.
+    condition const* broken(key const& row, toml::table const& beside) const {
+        for (condition const& c : conditions)
+            if ((row.where & c.what) != 0 && !holds(c.what, beside)) return &c;
+        return nullptr;
     }
 
 private:
@@ -52,12 +57,47 @@ private:
     }
 
     void must_mean_something(key const& row, value const& v, toml::table const& beside) const {
-        for (condition const& c : conditions)
-            if ((row.where & c.what) != 0 && !holds(c.what, beside)) v.refuse(std::string("left out: ") + c.otherwise);
+        auto const* c = broken(row, beside);
+        if (c == nullptr || *c->otherwise == '\0') return;
+        auto const* list = v.node->as_array();
+        bool const first = row.what == kind::tables && list && !list->empty();
+        (first ? v.list()[0] : v).refuse(std::string("left out: ") + c->otherwise);
     }
 
     std::string word(char const* key, char const* standard) const {
         return file_["simulation"][key].value_or(std::string(standard));
+    }
+    bool bare() const { return bool(file_["fluid"]["network"]); }
+    bool flow_alone() const { return bare() || !file_["fluid"]["mechanical_coupling"].value_or(true); }
+    bool contacts() const { return !flow_alone() && word("contact_law", "frictional_spring") != "none"; }
+    bool hertz() const { return contacts() && word("contact_law", "frictional_spring") == "hertz_mindlin"; }
+    bool bonds() const { return !flow_alone() && word("bond_law", "brittle_spring") != "none" && file_.contains("bonds"); }
+    bool implicit() const { return file_["fluid"]["solver"].value_or(std::string()) == "implicit"; }
+    bool is_number(char const* section) const { return file_[section]["time_step"].value_or(0.0) > 0; }
+
+    /// Whether bonds take a value from the materials, not from a key of their own.
+    bool bonds_take(char const* own_key) const { return bonds() && !file_["bonds"][own_key]; }
+    bool young(toml::table const& material) const { return hertz() && material.contains("young_modulus"); }
+
+    bool has_gravity() const {
+        auto const* g = file_["simulation"]["gravity"].as_array();
+        return g && std::any_of(g->begin(), g->end(), [](auto const& x) { return x.value_or(0.0) != 0; });
+    }
+
+    /// Discs have it in their mass, pores in their volume, bonds and pressures in the areas that their strengths act on.
+    bool thickness_taken() const {
+        if (word("mass", "disc") != "sphere" || file_.contains("fluid")) return true;
+        if (auto const* all = file_["materials"].as_table(); all && bonds())
+            for (auto const& [name, node] : *all)
+                if (auto const* m = node.as_table())
+                    if ((m->contains("tensile_strength") && bonds_take("tensile_force")) ||
+                        (m->contains("shear_strength") && bonds_take("shear_force")))
+                        return true;
+        auto const* loads = file_["loads"].as_array();
+        return loads && std::any_of(loads->begin(), loads->end(), [](toml::node const& one) {
+                   auto const* load = one.as_table();
+                   return load && load->contains("pressure") && (*load)["area"].value_or(std::string("strip")) == "strip";
+               });
     }
 
     /// \param beside the table in which the key stands
@@ -66,30 +106,58 @@ private:
         switch (what) {
         case always: return true;
         case in_plane: return dimension_ == 2;
-        case with_particles: return !file_["fluid"]["network"];
-        case with_contacts: return word("contact_law", "frictional_spring") != "none";
-        case with_hertz: return word("contact_law", "frictional_spring") == "hertz_mindlin";
+        case with_particles: return !bare();
+        case moving: return !flow_alone();
+        case with_contacts: return contacts();
+        case with_hertz: return hertz();
         case with_bonds: return word("bond_law", "brittle_spring") != "none";
         case with_parallel_bonds: return word("bond_law", "brittle_spring") == "parallel_bond";
+        case bonds_for_it: return is("bond_law", "none") || file_.contains("bonds");
+        case with_forces: return contacts() || bonds();
+        case thickness_used: return thickness_taken();
+        case gravity_given: return has_gravity();
+        case own_step: return !(flow_alone() && is_number("fluid"));
+        case auto_step: return !is_number("simulation") && !(flow_alone() && is_number("fluid"));
+        case bounded_step: return !flow_alone() || (!implicit() && (is_number("simulation") || is_number("fluid")));
+        case normal_besides_young: return !young(beside) || bonds_take("normal_stiffness");
+        case shear_besides_young: return !young(beside) || bonds_take("shear_stiffness");
+        case normal_used: return contacts() || bonds_take("normal_stiffness");
+        case shear_used: return contacts() || bonds_take("shear_stiffness");
+        case tension_used: return bonds_take("tensile_force");
+        case shearing_used: return bonds_take("shear_force");
+        case no_young: return !beside.contains("young_modulus");
+        case materials_named: return !flow_alone() || bool(file_["particles"]["file"]);
+        case bonds_there: return bonds();
+        case lasting_pores: return file_["fluid"]["remeshing"]["rule"].value_or(std::string()) != "when_needed";
+        case remeshed: return is("rule", "when_needed");
+        default: return holds_beside(what, beside);
+        }
+    }
+
+    /// Conditions on the same table alone.
+    bool holds_beside(needs what, toml::table const& beside) const {
+        auto const is = [&](char const* key, char const* text) { return beside[key].value_or(std::string()) == text; };
+        switch (what) {
         case no_steps: return !beside.contains("steps");
+        case young_given: return beside.contains("young_modulus");
         case no_file: return !beside.contains("file");
         case touching_bonds: return beside["touching"].value_or(false);
         case listed_bonds: return !beside["touching"].value_or(false);
-        case young_given: return beside.contains("young_modulus");
         case no_velocity: return !beside.contains("velocity");
         case no_pressure: return !beside.contains("pressure");
         case pressure_given: return beside.contains("pressure");
         case drained: return is("boundary", "drained");
-        case bare_network: return bool(file_["fluid"]["network"]);
+        case explicit_flow: return !implicit();
+        case bare_network: return bare();
         case no_pore: return !beside.contains("pore");
         case no_throat: return !beside.contains("throat");
         case constant_aperture: return is("law", "constant");
         case contact_aperture: return is("law", "contact_force");
+        default: return true;
         }
-        return true;
     }
 
-    void entry(key const& row, value const& v, toml::table const& beside) const {
+    void entry(key const& row, value const& v) const {
         auto const each = [&](auto const& one) {
             for (value const& part : v.list()) one(part);
         };
@@ -99,10 +167,7 @@ private:
         switch (row.what) {
         case kind::table: sub_table(v, row.path); break;
         case kind::tables:
-            each([&](value const& one) {
-                must_mean_something(row, one, beside);
-                sub_table(one, std::string(row.path) + "[]");
-            });
+            each([&](value const& one) { sub_table(one, std::string(row.path) + "[]"); });
             break;
         case kind::named:
             if (!v.node->is_table()) v.refuse("a table of tables with names");
@@ -144,8 +209,14 @@ private:
     int dimension_;
 };
 
-} // namespace
+std::shared_ptr<file_meaning const> check_keys(toml::table const& file) {
+    auto meaning = std::make_shared<file_meaning const>(file);
+    meaning->table(file, "", "");
+    return meaning;
+}
 
-void check_keys(toml::table const& file) { checker(file).table(file, "", ""); }
+bool means_something(file_meaning const& meaning, key const& row, toml::table const& beside) {
+    return meaning.broken(row, beside) == nullptr;
+}
 
 } // namespace lacuna_run

@@ -79,6 +79,7 @@ inline chosen_flow::parameters flow_of(fluid const& from) {
         to.aperture.contact_force = {from.aperture, from.half_force, from.gap_factor};
     // As many flow steps within one of the particles as are safe.
     to.substeps = from.implicit ? 1 : 0;
+    if (from.minimum_pressure) to.minimum_pressure = *from.minimum_pressure;
     fill_merging(to, from);
     return to;
 }
@@ -118,7 +119,12 @@ lacuna::simulation_parameters<Model> model_parameters(scenario const& s) {
     p.guards = set.guards;
     p.threads = set.threads;
     if constexpr (lacuna::has_fluid<Model>)
-        if (s.water) p.flow = flow_of(*s.water);
+        if (s.water) {
+            p.flow = flow_of(*s.water);
+            if (s.water->remeshing) p.remeshing.rule = lacuna::remesh_rule::when_needed;
+            p.remeshing.interval = s.water->remeshing_interval;
+            p.remeshing.on_broken_bond = s.water->remeshing_on_broken_bond;
+        }
     return p;
 }
 

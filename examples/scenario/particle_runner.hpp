@@ -195,7 +195,8 @@ auto particle_runner<Model>::drives_of(scenario const& s) -> std::vector<drive> 
             auto const& way = inward[int(l.where)];
             for (auto const id : row) {
                 double const force = lacuna::traction_force(l.pressure, s.bodies.radius[std::size_t(id)],
-                                                            s.simulation.thickness, lacuna::traction_area::disc);
+                                                            s.simulation.thickness,
+                                                            l.disc_area ? lacuna::traction_area::disc : lacuna::traction_area::strip);
                 add(id, {force * way[0], force * way[1]}, {}, l, n);
             }
         }

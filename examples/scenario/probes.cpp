@@ -42,6 +42,20 @@ std::string read_pore(table const& t, fluid const& water, pore_place& place) {
     return std::to_string(place.pore);
 }
 
+/// What a run of this kind has something to tell about. \throws refusal
+void require_told(quantity_row const& e, value const& from, scenario const& s) {
+    bool const flow = e.of == subject::pore || e.of == subject::throat || e.what == quantity::fluid_energy;
+    if (s.flow_alone() && s.water->bare() && !flow) from.refuse("one of pores, throats or energy.fluid: there are no particles");
+    if (s.flow_alone() && !flow && e.what != quantity::position)
+        from.refuse("left out: fluid.mechanical_coupling is false, particles do not move");
+    if (!s.water && flow) from.refuse("left out: there is no fluid");
+    bool const of_contacts = e.of == subject::contact || e.what == quantity::contacts || e.what == quantity::friction;
+    if (of_contacts && s.simulation.contact == contact_law::none) from.refuse("left out: contact_law is \"none\"");
+    bool const of_failure =
+        e.what == quantity::broken_tension || e.what == quantity::broken_shear || e.what == quantity::fracture;
+    if (of_failure && s.joints.pairs.empty()) from.refuse("left out: there are no bonds");
+}
+
 } // namespace
 
 char const* key_of(subject of) {
@@ -78,12 +92,7 @@ probe read_probe(value const& from, scenario const& s) {
         p.index = t[key].index(count, of);
         label = std::to_string(p.index);
     };
-    auto const need_fluid = [&] {
-        if (!s.water) t["quantity"].refuse("left out: there is no fluid");
-    };
-    bool const bare = s.water && s.water->bare();
-    if (bare && e.of != subject::pore && e.of != subject::throat)
-        t["quantity"].refuse("one of pores or throats: there are no particles");
+    require_told(e, t["quantity"], s);
     switch (e.of) {
     case subject::particle: number("particle", s.bodies.size(), "particles"); break;
     case subject::bond: number("bond", s.joints.pairs.size(), "bonds"); break;
@@ -100,12 +109,10 @@ probe read_probe(value const& from, scenario const& s) {
     }
     case subject::pore:
         only({"pore", "near"});
-        need_fluid();
         label = read_pore(t, *s.water, p.where);
         break;
     case subject::throat:
         only({"pore", "near", "throat"});
-        need_fluid();
         if (t.has("throat")) {
             p.throat = t["throat"].index(s.water->throats.size(), "throats");
             label = "throat " + std::to_string(p.throat);

@@ -11,6 +11,7 @@
 #include "particle_file.hpp"
 #include "probes.hpp"
 #include "scenario.hpp"
+#include "toml_depth.hpp"
 #include "toml_table.hpp"
 #include "touching.hpp"
 
@@ -52,28 +53,28 @@ settings read_settings(value const& from) {
     return s;
 }
 
-/// Stiffnesses, and Young's modulus and Poisson's ratio of Hertzian contacts, which then need no stiffnesses.
-/// \param bonds stiffnesses are those of bonds, too
+/// Young's modulus and Poisson's ratio, of Hertzian contacts only.
 template <class Body>
-void read_elasticity(table const& t, Body& to, bool bonds) {
+void read_elasticity(table const& t, Body& to) {
     to.young_modulus = t.given("young_modulus");
     if (to.young_modulus) to.poisson_ratio = t.number("poisson_ratio");
-    bool const needed = bonds || !to.young_modulus;
-    to.normal_stiffness = needed ? t.number("normal_stiffness") : t.given("normal_stiffness").value_or(1.0);
-    to.shear_stiffness = needed ? t.number("shear_stiffness") : t.given("shear_stiffness").value_or(0.0);
 }
 
-std::vector<material> read_materials(value const& from, bool bonds) {
+std::vector<material> read_materials(value const& from) {
     std::vector<material> found;
     for (auto const& [key, node] : *from.node->as_table()) {
         material m;
         m.name = std::string(key.str());
-        table const t({&node, from.path + "." + m.name}, "materials.*");
-        m.density = t.number("density");
+        table const t({&node, from.path + "." + m.name, from.meaning}, "materials.*");
+        m.density = t.number("density"); // 0 of flow alone
+        m.normal_stiffness = t.number("normal_stiffness");
+        m.shear_stiffness = t.number("shear_stiffness");
+        // Where they mean nothing; the library asks for a stiffness of every material.
+        if (m.normal_stiffness == 0) m.normal_stiffness = 1;
         m.friction = t.number("friction");
         m.tensile_strength = t.given("tensile_strength");
         m.shear_strength = t.given("shear_strength");
-        read_elasticity(t, m, bonds);
+        read_elasticity(t, m);
         found.push_back(m);
     }
     if (found.empty()) from.refuse("at least one material");
@@ -131,20 +132,27 @@ fixed read_fix(value const& from, std::size_t particles, int dimension) {
     return f;
 }
 
-particles read_particles(value const& from, settings const& s, std::vector<material> const& materials,
-                         std::string const& folder) {
+particles read_particles(value const& from, scenario const& all, std::string const& folder) {
     table const t(from, "particles");
+    settings const& s = all.simulation;
     particles p;
     if (t.has("file")) {
         value const file = t["file"];
         if (folder.empty()) file.refuse("left out: no files here");
-        read_particle_file((std::filesystem::path(folder) / file.string()).string(), file.path, s.dimension, materials, p);
+        read_particle_file((std::filesystem::path(folder) / file.string()).string(), file.path, s.dimension, all.materials, p);
+        // Rigid particles have no material; a file has to name one.
+        auto const moves = [](point const& v) { return v != point{}; };
+        if (all.flow_alone() && (std::any_of(p.velocity.begin(), p.velocity.end(), moves) ||
+                                 std::any_of(p.spin.begin(), p.spin.end(), moves)))
+            file.refuse("a file of particles at rest: fluid.mechanical_coupling is false");
     } else {
         p.position = read_points(t["position"], s.dimension);
         if (p.position.empty()) t["position"].refuse("at least one point");
         p.radius = one_or_each<double>(t["radius"], p.size(), "particle", [](value const& v) { return v.number(); });
-        p.material = one_or_each<int>(t["material"], p.size(), "particle",
-                                      [&](value const& v) { return material_number(v, materials); });
+        p.material.assign(p.size(), 0);
+        if (!all.flow_alone())
+            p.material = one_or_each<int>(t["material"], p.size(), "particle",
+                                          [&](value const& v) { return material_number(v, all.materials); });
         auto const one_per_particle = [&](value const& v, std::size_t count) {
             if (count != p.size()) v.refuse("one per particle, of which there are " + std::to_string(p.size()));
         };
@@ -204,8 +212,11 @@ wall read_wall(value const& from, settings const& s) {
     w.normal = t["normal"].vector(s.dimension);
     double const length = std::hypot(w.normal[0], w.normal[1], w.normal[2]);
     if (!(length > 0 && std::isfinite(length))) t["normal"].refuse("a vector of finite length > 0");
+    w.normal_stiffness = t.number("normal_stiffness");
+    w.shear_stiffness = t.number("shear_stiffness");
+    if (w.normal_stiffness == 0) w.normal_stiffness = 1; // young_modulus is given
     w.friction = t.number("friction");
-    read_elasticity(t, w, false);
+    read_elasticity(t, w);
     return w;
 }
 
@@ -218,6 +229,7 @@ load read_load(value const& from, scenario const& s) {
         l.what = load::kind::pressure;
         l.pressure = t.number("pressure");
         l.where = side(t.word("side"));
+        l.disc_area = t.word("area") == 1;
         l.margin_diameters = t.number("margin_diameters");
         return l;
     }
@@ -233,26 +245,33 @@ load read_load(value const& from, scenario const& s) {
     return l;
 }
 
-/// Loads on one particle act together only if they rise together.
-void check_loads(std::vector<load> const& loads, std::size_t particles) {
-    std::vector<std::int32_t> forced(particles, -1), moved(particles, -1);
-    for (std::size_t n = 0; n < loads.size(); ++n) {
+/// Loads on one particle act together only if they rise together; a prescribed velocity leaves no axis to hold.
+void check_loads(scenario const& s) {
+    std::vector<std::int32_t> forced(s.bodies.size(), -1), moved(s.bodies.size(), -1);
+    for (std::size_t n = 0; n < s.loads.size(); ++n) {
         std::string const path = "loads[" + std::to_string(n) + "]";
-        for (auto const id : loads[n].particles) {
+        for (auto const id : s.loads[n].particles) {
             auto const k = std::size_t(id);
-            if (loads[n].what == load::kind::velocity) {
+            if (s.loads[n].what == load::kind::velocity) {
                 if (moved[k] >= 0 && std::size_t(moved[k]) != n)
                     refuse(path + ".particles", std::to_string(id), "a particle whose velocity is not prescribed yet");
                 moved[k] = std::int32_t(n);
             } else {
-                if (forced[k] >= 0 && loads[std::size_t(forced[k])].ramp_time != loads[n].ramp_time)
-                    refuse(path + ".ramp_time", lacuna::to_text(loads[n].ramp_time),
+                if (forced[k] >= 0 && s.loads[std::size_t(forced[k])].ramp_time != s.loads[n].ramp_time)
+                    refuse(path + ".ramp_time", lacuna::to_text(s.loads[n].ramp_time),
                            "that of loads[" + std::to_string(forced[k]) + "], which acts on particle " + std::to_string(id) +
                                " too");
                 forced[k] = std::int32_t(n);
             }
         }
     }
+    for (std::size_t n = 0; n < s.bodies.fix.size(); ++n)
+        for (auto const id : s.bodies.fix[n].particles) {
+            fixed const& f = s.bodies.fix[n];
+            if (moved[std::size_t(id)] >= 0 && (f.x || f.y || f.z))
+                refuse("particles.fix[" + std::to_string(n) + "].axes", "particle " + std::to_string(id),
+                       "\"r\" or left out: loads[" + std::to_string(moved[std::size_t(id)]) + "].velocity moves it");
+        }
 }
 
 pore_place read_place(table const& t, std::size_t pores, bool bare) {
@@ -293,9 +312,24 @@ void read_aperture(value const& from, fluid& f) {
         f.aperture = t.number("value");
     } else {
         f.aperture = t.number("a0");
-        f.half_force = t.number("F0");
+        if (double const given = t.number("F0"); given > 0) f.half_force = given; // 0: without forces it means nothing
         f.gap_factor = t.number("gap_multiplier");
     }
+}
+
+/// A fluid that tears has no pressure below that.
+void check_pressures(table const& t, fluid const& f) {
+    if (!f.minimum_pressure) return;
+    auto const check = [&](std::string const& path, double pressure) {
+        if (pressure < *f.minimum_pressure)
+            refuse(path, lacuna::to_text(pressure), ">= fluid.minimum_pressure, " + lacuna::to_text(*f.minimum_pressure));
+    };
+    check(t.path("initial_pressure"), f.initial_pressure);
+    if (f.drained) check(t.path("boundary_pressure"), f.boundary_pressure);
+    for (std::size_t k = 0; k < f.reservoirs.size(); ++k)
+        check(t.path("reservoirs") + "[" + std::to_string(k) + "].pressure", f.reservoirs[k].pressure);
+    for (std::size_t k = 0; k < f.pores.size(); ++k)
+        check(t.path("network.pores") + "[" + std::to_string(k) + "].pressure", f.initial_pressure + f.pores[k].pressure);
 }
 
 fluid read_fluid(value const& from) {
@@ -311,7 +345,6 @@ fluid read_fluid(value const& from) {
     f.time_step = t.step("time_step");
     f.initial_pressure = t.number("initial_pressure");
     f.drained = t.word("boundary") == 1;
-    if (f.drained && f.bare()) t["boundary"].refuse("\"sealed\": a bare network has no outside, but reservoirs");
     f.boundary_pressure = t.number("boundary_pressure");
     for (value const& one : t.list("reservoirs")) {
         table const r(one, "fluid.reservoirs[]");
@@ -321,12 +354,20 @@ fluid read_fluid(value const& from) {
         table const r(one, "fluid.sources[]");
         f.sources.push_back({read_place(r, f.pores.size(), f.bare()), r.number("flow")});
     }
+    f.minimum_pressure = t.given("minimum_pressure");
+    check_pressures(t, f);
+    if (t.has("remeshing")) {
+        table const remeshing(t["remeshing"], "fluid.remeshing");
+        f.remeshing = remeshing.word("rule") == 1;
+        f.remeshing_interval = int(remeshing.whole("interval"));
+        f.remeshing_on_broken_bond = remeshing.flag("on_broken_bond");
+    }
     f.merge_conductance = t.given("merge_conductance");
     f.mechanical_coupling = t.flag("mechanical_coupling");
     return f;
 }
 
-output read_output(value const& from, bool particles) {
+output read_output(value const& from) {
     table const t(from, "output");
     output o;
     if (t.has("directory")) {
@@ -336,28 +377,25 @@ output read_output(value const& from, bool particles) {
     o.vtk_every = t.whole("vtk_every");
     o.picture_every = t.whole("picture_every");
     o.checkpoint_every = t.whole("checkpoint_every");
-    if (!particles && o.vtk_every > 0) t["vtk_every"].refuse("0: a bare network has no places to show");
-    if (!particles && o.picture_every > 0) t["picture_every"].refuse("0: a bare network has no places to show");
     return o;
 }
 
 scenario read_tables(toml::table const& file, std::string const& folder) {
-    check_keys(file);
-    value const all{&file, ""};
-    table const t(all, "");
+    auto const meaning = check_keys(file);
+    table const t({&file, "", meaning.get()}, "");
     scenario s;
     s.simulation = read_settings(t["simulation"]);
     if (t.has("fluid")) s.water = read_fluid(t["fluid"]);
     if (!s.water || !s.water->bare()) {
-        s.materials = read_materials(t["materials"], s.simulation.bond != bond_law::none);
-        s.bodies = read_particles(t["particles"], s.simulation, s.materials, folder);
+        if (!s.flow_alone() || t.has("materials")) s.materials = read_materials(t["materials"]);
+        s.bodies = read_particles(t["particles"], s, folder);
         if (t.has("bonds")) s.joints = read_bonds(t["bonds"], s);
         for (value const& one : t.list("walls")) s.walls.push_back(read_wall(one, s.simulation));
         for (value const& one : t.list("loads")) s.loads.push_back(read_load(one, s));
-        check_loads(s.loads, s.bodies.size());
+        check_loads(s);
     }
     for (value const& one : t.list("probes")) s.probes.push_back(read_probe(one, s));
-    s.out = t.has("output") ? read_output(t["output"], s.bodies.size() > 0) : output{};
+    s.out = t.has("output") ? read_output(t["output"]) : output{};
     return s;
 }
 
@@ -371,6 +409,7 @@ std::string one_line(std::string_view text) {
 } // namespace
 
 scenario read_scenario(std::string_view text, std::string const& name, std::string const& folder) {
+    require_shallow(text, name);
     try {
         return read_tables(toml::parse(text), folder);
     } catch (toml::parse_error const& bad) {

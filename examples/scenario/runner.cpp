@@ -2,6 +2,9 @@
 #include "checkpoints.hpp"
 #include "runner.hpp"
 
+#include <stdexcept>
+#include <string>
+
 #include <lacuna/laws/frictional_spring.hpp>
 #include <lacuna/laws/hertz_mindlin.hpp>
 
@@ -15,9 +18,7 @@ std::unique_ptr<runner> make(scenario const& s) {
     return make_particle_runner<Dim, Real, lacuna::frictional_spring>(s);
 }
 
-} // namespace
-
-std::unique_ptr<runner> make_runner(scenario const& s) {
+std::unique_ptr<runner> build_runner(scenario const& s) {
 #ifndef LACUNA_HAS_PICTURES
     if (s.out.picture_every > 0)
         refuse("output.picture_every", std::to_string(s.out.picture_every), "0: this program was built without pictures");
@@ -26,16 +27,30 @@ std::unique_ptr<runner> make_runner(scenario const& s) {
     if (s.out.checkpoint_every > 0)
         refuse("output.checkpoint_every", std::to_string(s.out.checkpoint_every), "0: this program was built without checkpoints");
 #endif
-    if (s.out.picture_every > 0 && s.simulation.dimension == 3)
-        refuse("output.picture_every", std::to_string(s.out.picture_every), "0: pictures are of the plane");
-    if (s.water && (s.water->bare() || !s.water->mechanical_coupling)) {
-        if (!s.loads.empty())
-            refuse("loads", "[...]", "left out: fluid.mechanical_coupling is false, particles do not move");
-        return make_network_runner(s);
-    }
+    if (s.flow_alone()) return make_network_runner(s);
     bool const single = s.simulation.single_precision;
     if (s.simulation.dimension == 3) return single ? make<3, float>(s) : make<3, double>(s);
     return single ? make<2, float>(s) : make<2, double>(s);
+}
+
+/// What the library calls flow is [fluid] of the scenario.
+std::string in_words_of_the_scenario(std::string const& message) {
+    return message.rfind("flow.", 0) == 0 ? "fluid." + message.substr(5) : message;
+}
+
+} // namespace
+
+std::unique_ptr<runner> make_runner(scenario const& s) {
+    // No file is written here: whatever fails lies in the scenario.
+    try {
+        return build_runner(s);
+    } catch (refusal const&) {
+        throw;
+    } catch (std::invalid_argument const& bad) {
+        throw refusal(in_words_of_the_scenario(bad.what()));
+    } catch (std::runtime_error const& bad) {
+        throw refusal((s.water ? "fluid: no pores between the particles of particles.position: " : "") + std::string(bad.what()));
+    }
 }
 
 } // namespace lacuna_run

@@ -95,6 +95,7 @@ struct load {
     std::vector<std::int32_t> particles;
     point force{}, torque{}, velocity{};
     double pressure = 0, margin_diameters = 0, ramp_time = 0;
+    bool disc_area = false; ///< the pressure acts on the disc's face, else on the strip that it covers
     side where = side::top;
 };
 
@@ -132,6 +133,10 @@ struct fluid {
     double boundary_pressure = 0;
     std::vector<reservoir> reservoirs;
     std::vector<source> sources;
+    std::optional<double> minimum_pressure; ///< the fluid tears below it
+    bool remeshing = false;                 ///< pores are made anew when the mesh does not fit any more
+    int remeshing_interval = 100;
+    bool remeshing_on_broken_bond = false;
     std::optional<double> merge_conductance;
     bool mechanical_coupling = true;
     std::vector<bare_pore> pores; ///< of a bare network; empty: triangulated particles
@@ -175,6 +180,8 @@ struct scenario {
     std::optional<fluid> water;
     std::vector<probe> probes;
     output out;
+    /// Whether fluid flows between particles that stay where they are, or without any.
+    bool flow_alone() const noexcept { return water && (water->bare() || !water->mechanical_coupling); }
 };
 
 /// Reads and checks the text of a scenario.

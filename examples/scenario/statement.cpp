@@ -102,6 +102,9 @@ constexpr renamed renames[] = {
     {"water.gap_factor", "fluid.aperture.gap_multiplier"},
     {"water.implicit", "fluid.solver"},
     {"water.drained", "fluid.boundary"},
+    {"water.remeshing_interval", "fluid.remeshing.interval"},
+    {"water.remeshing_on_broken_bond", "fluid.remeshing.on_broken_bond"},
+    {"water.remeshing", "fluid.remeshing.rule"},
     {"water.pores", "fluid.network.pores"},
     {"water.throats", "fluid.network.throats"},
     {"water", "fluid"},
@@ -117,6 +120,7 @@ constexpr flag_words words[] = {
     {"fluid.aperture.law", "\"contact_force\"", "\"constant\""},
     {"fluid.solver", "\"explicit\"", "\"implicit\""},
     {"fluid.boundary", "\"sealed\"", "\"drained\""},
+    {"fluid.remeshing.rule", "\"never\"", "\"when_needed\""},
 };
 
 void replace(std::string& text, std::string_view old, std::string_view fresh) {

@@ -95,7 +95,7 @@ std::vector<value> value::list() const {
     if (!array) refuse("a list");
     std::vector<value> found;
     for (std::size_t k = 0; k < array->size(); ++k)
-        found.push_back({array->get(k), path + "[" + std::to_string(k) + "]"});
+        found.push_back({array->get(k), path + "[" + std::to_string(k) + "]", meaning});
     return found;
 }
 
@@ -128,12 +128,12 @@ std::string did_you_mean(std::string const& word, std::vector<std::string> const
     return near.empty() ? "" : " (did you mean \"" + near + "\"?)";
 }
 
-table::table(value const& from, std::string rows) : toml_(from.node->as_table()), path_(from.path), rows_(std::move(rows)) {
+table::table(value const& from, std::string rows) : toml_(from.node->as_table()), meaning_(from.meaning), path_(from.path), rows_(std::move(rows)) {
     if (!toml_) from.refuse("a table");
 }
 
 value table::operator[](char const* key) const {
-    value const found{toml_->get(key), path(key)};
+    value const found{toml_->get(key), path(key), meaning_};
     if (found.node == nullptr) found.refuse("given");
     return found;
 }
@@ -141,8 +141,9 @@ value table::operator[](char const* key) const {
 std::string_view table::standard(char const* key) const {
     auto const* row = find_key(rows_.empty() ? key : rows_ + "." + key);
     if (row == nullptr) throw std::logic_error("no row for the key " + path(key));
-    if (std::string_view(row->standard) == required) (void)(*this)[key];
-    return row->standard;
+    if (std::string_view(row->standard) != required) return row->standard;
+    if (means_something(*meaning_, *row, *toml_)) (void)(*this)[key];
+    return "0";
 }
 
 double table::number(char const* key) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -40,10 +41,13 @@ void refuse_syntax(char const* broken);
 
 namespace lacuna_run {
 
+class file_meaning;
+
 /// A value of the file and its full path, from which refusals are made.
 struct value {
     toml::node const* node;
     std::string path;
+    file_meaning const* meaning = nullptr; ///< of its file
 
     /// As it stands in the file, shortened: what refusals quote.
     std::string text() const;
@@ -81,7 +85,7 @@ public:
     std::string path(char const* key) const { return path_.empty() ? key : path_ + "." + key; }
 
     /// \name What stands at a key, or else what its row says.
-    /// \throws refusal when its row says that it must be given
+    /// \throws refusal when its row says that it must be given, and it means something here; if not, it is 0
     /// \{
     double number(char const* key) const;
     /// Nothing where the key is left out.
@@ -106,12 +110,16 @@ private:
     std::string_view standard(char const* key) const;
 
     toml::table const* toml_;
+    file_meaning const* meaning_;
     std::string path_, rows_;
 };
 
 /// Checks a whole file against key_table.hpp: unknown keys, keys that mean nothing here, types, ranges and choices.
+/// \return what tells which keys mean something; of the file, which has to stay
 /// \throws refusal
-void check_keys(toml::table const& file);
+std::shared_ptr<file_meaning const> check_keys(toml::table const& file);
+/// Whether the key means something in its file. \param beside the table in which it stands
+bool means_something(file_meaning const& meaning, key const& row, toml::table const& beside);
 
 using lacuna::nearest_word;
 /// The words of "a|b|c".

@@ -40,6 +40,10 @@ public:
         fs::remove_all(path_);
         fs::create_directories(path_);
     }
+    void clear() const {
+        fs::remove_all(path_);
+        fs::create_directories(path_);
+    }
     fs::path operator/(std::string const& name) const { return path_ / name; }
     void write(std::string const& name, std::string const& text) const { std::ofstream(path_ / name, std::ios::binary) << text; }
     std::vector<std::string> files() const {

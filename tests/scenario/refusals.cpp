@@ -159,7 +159,7 @@ TEST_CASE("each bad value is refused by its path", "[refusal]") {
         {"steps = 20", "steps = 20\nend_time = 1.0", "simulation.end_time = 1: must be left out: steps is given"},
         {"contact_law = \"frictional_spring\"", "contact_law = \"sticky\"",
          "simulation.contact_law = \"sticky\": must be one of \"none\", \"frictional_spring\", \"hertz_mindlin\""},
-        {"gravity = [0.0, 0.0]", "fluid_density = -1", "simulation.fluid_density = -1: must be >= 0"},
+        {"gravity = [0.0, 0.0]", "gravity = [0.0, -1.0]\nfluid_density = -1", "simulation.fluid_density = -1: must be >= 0"},
         {"gravity = [0.0, 0.0]", "gravity = [0.0]", "simulation.gravity = [...]: must be a list of 2 numbers"},
         {"radius = 0.5", "radius = [0.5, 0.5]", "particles.radius = [...]: must be one value or one per particle"},
         {"radius = 0.5", "radius = [0.5, 0.5, 0.0]", "particles.radius[2] = 0: must be > 0"},
@@ -189,7 +189,15 @@ TEST_CASE("each bad value is refused by its path", "[refusal]") {
          "probes[0].particle = 1: must be left out"},
         {"quantity = \"position.x\"", "quantity = \"position.z\"", "probes[0].quantity = \"position.z\": must be a known quantity"},
         {"pairs = [[0, 1]]", "pairs = [[0, 1]]\nbending_stiffness = 1.0", "bonds.bending_stiffness = 1: must be left out"},
-        {"pairs = [[0, 1]]", "pairs = [[0, 1]]\ntensile_force = [1.0, 2.0]", "bonds.tensile_force = [...]: must be one value or one per bond"},
+        {"pairs = [[0, 1]]", "pairs = [[0, 1]]\nshear_stiffness = [1.0, 2.0]", "bonds.shear_stiffness = [...]: must be one value or one per bond"},
+        {"pairs = [[0, 1]]", "pairs = [[0, 1]]\ntensile_force = 1.0", "materials.matrix.tensile_strength = 1e+300: must be left out: no bond takes it"},
+        {"time_step = \"auto\"", "time_step = 1e-9", "simulation.safety = 0.2: must be left out: time_step is given"},
+        {"gravity = [0.0, 0.0]", "gravity = [0.0, 0.0]\nfluid_density = 1.0", "simulation.fluid_density = 1: must be left out: there is no gravity"},
+        {"mechanical_coupling = true", "mechanical_coupling = false", "must be left out: fluid.mechanical_coupling is false: particles have no material"},
+        {"solver = \"explicit\"", "solver = \"implicit\"\nminimum_pressure = 0.0", "fluid.minimum_pressure = 0: must be left out: solver is \"implicit\""},
+        {"solver = \"explicit\"", "minimum_pressure = 1.0", "fluid.minimum_pressure = 1: must be <= 0"},
+        {"initial_pressure = 0.0", "initial_pressure = -5.0\nminimum_pressure = -1.0", "fluid.initial_pressure = -5: must be >= fluid.minimum_pressure, -1"},
+        {"force = [10.0, 0.0]", "velocity = [10.0, 0.0]\n[[loads]]\nparticles = [0]\nvelocity = [1.0, 0.0]", "particles.fix[0].axes = particle 0: must be \"r\" or left out: loads[1].velocity moves it"},
         {"pairs = [[0, 1]]", "touching = true", "bonds.gap = (missing): must be given"},
         {"bond_law = \"brittle_spring\"", "bond_law = \"none\"", "bonds = {...}: must be left out: bond_law is \"none\""},
         {"contact_law = \"frictional_spring\"", "contact_law = \"none\"", "walls[0] = {...}: must be left out: contact_law is \"none\""},
@@ -224,7 +232,7 @@ TEST_CASE("a refused scenario leaves one line, status 2 and no file", "[refusal]
     };
     refused(with("density = 1000.0", "density = -1"), "materials.matrix.density = -1: must be > 0");
     refused(with("density = 1000.0", "density = -1"), "materials.matrix.density = -1: must be > 0", "--check");
-    refused(with("time_step = \"auto\"", "time_step = 1.0"), "simulation.time_step = 1: must be at most the stable limit");
+    refused(with("time_step = \"auto\"\nsafety = 0.2", "time_step = 1.0"), "simulation.time_step = 1: must be at most the stable limit");
     refused(with("sources = [ { near = [0.5, 0.5], flow = 0.0 } ]", "sources = [ { pore = 7, flow = 0.0 } ]"),
             "fluid.sources[0].pore = 7: must be from 0 to 0, the last of the pores");
     refused(with("margin_diameters = 0", "margin_diameters = 9"), "loads[1].margin_diameters = 9: must be");
