@@ -61,6 +61,10 @@ int uninitialized(int n) { int x; for (int i = 0; i < n; ++i) x = i; return x; }
     endif()
   endforeach()
 elseif(CHECK STREQUAL "macros")
+  set(libraries_of_components "")
+  foreach(header IN ITEMS cairo.h cairo-svg.h zlib.h)
+    string(APPEND libraries_of_components "#if __has_include(<${header}>)\n#include <${header}>\n#endif\n")
+  endforeach()
   file(WRITE "${SCRATCH}/libraries.cpp" "#include <bits/stdc++.h>
 #include <cfloat>
 #include <csetjmp>
@@ -68,7 +72,7 @@ elseif(CHECK STREQUAL "macros")
 #include <Eigen/Sparse>
 #include <nanoflann.hpp>
 #include <immintrin.h>
-${LIBRARIES}
+${libraries_of_components}
 #include <sys/wait.h>
 #include <unistd.h>
 #include <fcntl.h>
@@ -87,7 +91,7 @@ ${LIBRARIES}
   endforeach()
   list(REMOVE_ITEM ours ${libraries})
   # Qhull's own include guards stay, or its headers could be read twice.
-  list(FILTER ours EXCLUDE REGEX "#define (LACUNA_|CEREAL_|qhDEF)")
+  list(FILTER ours EXCLUDE REGEX "#define (LACUNA_|CONSUMER_|CEREAL_|qhDEF)")
   if(ours)
     list(JOIN ours "\n  " report)
     message(FATAL_ERROR "macros that stay behind the headers:\n  ${report}")

@@ -158,9 +158,11 @@ public:
     void add(std::vector<neighbor_pair> const& more) {
         if (more.empty()) return;
         auto const before = [](neighbor_pair const& a, neighbor_pair const& b) { return a.i < b.i || (a.i == b.i && a.j < b.j); };
-        auto const middle = std::ptrdiff_t(pairs_.size());
-        pairs_.insert(pairs_.end(), more.begin(), more.end());
-        std::inplace_merge(pairs_.begin(), pairs_.begin() + middle, pairs_.end(), before);
+        // From the back, where there is room for the larger of the two.
+        std::size_t old = pairs_.size(), further = more.size();
+        pairs_.resize(old + further);
+        for (std::size_t to = pairs_.size(); further > 0; --to)
+            pairs_[to - 1] = old > 0 && before(more[further - 1], pairs_[old - 1]) ? pairs_[--old] : more[--further];
         pairs_.erase(std::unique(pairs_.begin(), pairs_.end()), pairs_.end());
     }
 

@@ -5,23 +5,26 @@
 #include <cstdlib>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include <lacuna/core/standard.hpp>
 
+#if !defined(qhDEFlibqhull)
+#define LACUNA_TAKES_QHULL_BACK
+#endif
 extern "C" {
 #include <libqhull_r/libqhull_r.h>
 
 #include <libqhull_r/geom_r.h>
 }
-// Qhull's header leaves these two words behind as macros.
-#undef True
-#undef False
 
 /// \file
 /// The only header that knows Qhull; a program that includes it links qhull_r.
 
 namespace lacuna::detail {
+
+static_assert(std::is_same_v<coordT, double>);
 
 /// A place for Qhull's messages: it would write to stderr otherwise.
 class message_file {
@@ -71,7 +74,7 @@ struct qhull_memory {
 /// \throws std::runtime_error when Qhull gives up.
 class convex_hull {
 public:
-    convex_hull(int dimension, std::vector<coordT>& points) : memory_(messages_.file()) {
+    convex_hull(int dimension, std::vector<double>& points) : memory_(messages_.file()) {
         char command[] = "qhull Qt";
         int const count = int(points.size()) / dimension;
         if (qh_new_qhull(get(), dimension, count, points.data(), 0, command, nullptr, messages_.file()) != 0)
@@ -90,3 +93,8 @@ private:
 };
 
 } // namespace lacuna::detail
+
+#if defined(LACUNA_TAKES_QHULL_BACK)
+#include <lacuna/pores/qhull_macros.hpp>
+#undef LACUNA_TAKES_QHULL_BACK
+#endif

@@ -43,11 +43,11 @@ template <int Dim>
 pore_mesh<Dim> lower_hull(scaled_particles<Dim> const& all) {
     constexpr auto dim = std::size_t(Dim);
     std::size_t const count = all.x.size();
-    std::vector<coordT> lifted((dim + 1) * (count + 1));
+    std::vector<double> lifted((dim + 1) * (count + 1));
     scaled_point<Dim> middle{};
     double top = -1e300;
     for (std::size_t k = 0; k < count; ++k) {
-        coordT* const to = lifted.data() + (dim + 1) * k;
+        double* const to = lifted.data() + (dim + 1) * k;
         to[dim] = all.shift(k) - all.radius[k] * all.radius[k];
         for (std::size_t axis = 0; axis < dim; ++axis) {
             double const x = all.x[k][axis];
