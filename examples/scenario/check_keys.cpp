@@ -27,6 +27,7 @@ public:
         for (auto const& [name, node] : t)
             if (std::none_of(known.begin(), known.end(), [&](auto const& one) { return one.first == name.str(); }))
                 refuse_unknown({&node, path_of(path, name.str())}, std::string(name.str()), known);
+        if (auto const* node = path.empty() ? t.get("simulation") : nullptr) entry(*find_key("simulation"), {node, "simulation"});
         // First what does not belong here at all, then what it is.
         for (bool const meaning : {true, false})
             for (auto const& [name, row] : known)

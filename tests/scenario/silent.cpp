@@ -175,7 +175,7 @@ settings const water{
 /// Of flow alone.
 settings const rigid{
     {"simulation.steps", "20"},
-    {"particles.position", "[[0.0, 0.0], [1.1, 0.0], [0.5, 0.95], [1.6, 0.95]]"},
+    {"particles.position", "[[0.0, 0.0], [1.1, 0.0], [0.5, 0.95], [1.6, 0.95], [2.2, 0.0]]"},
     {"particles.radius", "0.5"},
     {"fluid.bulk_modulus", "1e4"},
     {"fluid.conductivity", "1e-3"},
@@ -244,6 +244,10 @@ void try_all_keys(std::string const& name, tree const& deck) {
     for (key const& row : keys) {
         if (row.what == kind::table || row.what == kind::named || (row.what == kind::tables && !values.count(row.path))) continue;
         if (is_exempt(row.path)) continue;
+        // Stiffnesses of bonds may stand beside young_modulus where there are none: README.
+        bool const young = deck.find("materials.*.young_modulus") != nullptr;
+        std::string_view const path = row.path;
+        if (young && (path == "materials.*.normal_stiffness" || path == "materials.*.shear_stiffness")) continue;
         auto const found = values.find(row.path);
         INFO(row.path);
         REQUIRE(found != values.end()); // a new key needs two values here
@@ -289,6 +293,7 @@ TEST_CASE("no key is silent: a pressure on a row of spheres", "[keys][program]")
 }
 TEST_CASE("no key is silent: Hertzian spheres in space", "[keys][program]") {
     tree deck = deck_of({body, {{"simulation.dimension", "3"},
+                                {"simulation.mass", "\"sphere\""},
                                 {"simulation.contact_law", "\"hertz_mindlin\""},
                                 {"materials.*.young_modulus", "1e7"},
                                 {"materials.*.poisson_ratio", "0.3"},
