@@ -1,14 +1,25 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# sh cmake/dependencies.sh demo|check|coverage|nightly [more Debian packages]: installs what is missing on Debian or Ubuntu, as root or
+# sh cmake/dependencies.sh PROGRAM|check|coverage|nightly [more Debian packages]: installs what is missing on Debian or Ubuntu, as root or
 # through sudo; does nothing when all is there. LACUNA_SKIP_DEPENDENCIES=1 skips it.
 set -eu
 
 case "${1:-}" in
-demo)
+cartilage)
     wanted="g++ make cmake libeigen3-dev libnanoflann-dev libqhull-dev libcairo2-dev libcli11-dev
         nlohmann-json3-dev libcereal-dev"
+    ;;
+lacuna-run)
+    wanted="g++ make cmake libeigen3-dev libnanoflann-dev libqhull-dev libcairo2-dev libcli11-dev
+        libtomlplusplus-dev libcereal-dev zlib1g-dev"
+    ;;
+uniaxial)
+    wanted="g++ make cmake libeigen3-dev libnanoflann-dev libqhull-dev libcairo2-dev libcli11-dev
+        nlohmann-json3-dev"
+    ;;
+poroelasticity)
+    wanted="g++ make cmake libeigen3-dev libnanoflann-dev libqhull-dev libcairo2-dev libcli11-dev"
     ;;
 check)
     wanted="g++ make cmake libeigen3-dev libnanoflann-dev libqhull-dev libcairo2-dev libcli11-dev
@@ -27,7 +38,7 @@ nightly)
     exec sh "$0" check clang libomp-dev "$@"
     ;;
 *)
-    echo "usage: sh cmake/dependencies.sh demo|check|coverage|nightly [more Debian packages]" >&2
+    echo "usage: sh cmake/dependencies.sh cartilage|lacuna-run|uniaxial|poroelasticity|check|coverage|nightly [more Debian packages]" >&2
     exit 2
     ;;
 esac

@@ -6,19 +6,12 @@
 
 #include <CLI/CLI.hpp>
 
-#include <lacuna/core/version.hpp>
-
 #include "study_options.hpp"
 #include "words.hpp"
 
 namespace cartilage {
 
 namespace {
-
-#define CARTILAGE_TEXT_OF(x) #x
-#define CARTILAGE_TEXT(x) CARTILAGE_TEXT_OF(x)
-constexpr char const* version_text = "cartilage, Lacuna " CARTILAGE_TEXT(LACUNA_VERSION_MAJOR) "." CARTILAGE_TEXT(
-    LACUNA_VERSION_MINOR) "." CARTILAGE_TEXT(LACUNA_VERSION_PATCH);
 
 /// The command line as written, before it is understood.
 struct words : model_words {
@@ -75,7 +68,6 @@ std::optional<options> parse_command_line(int argc, char const* const* argv) {
                  "Mente.\nResults go into a directory: summary.json, cracks.csv, pictures as PNG and SVG.\n"
                  "Exit status: 0 done, 2 bad request, 3 run became unstable, 128 + number of a signal that stopped it.",
                  "cartilage");
-    app.set_version_flag("--version", version_text);
     app.require_subcommand(1);
     app.failure_message(CLI::FailureMessage::simple);
     app.get_formatter()->column_width(28);
@@ -95,17 +87,7 @@ std::optional<options> parse_command_line(int argc, char const* const* argv) {
     // Commands with an own set of options; here for the list of commands.
     for (auto const& [name, what] : further_commands()) app.add_subcommand(std::string(name), std::string(what));
 
-    try {
-        app.parse(argc, argv);
-    } catch (CLI::Success const& wish) {
-        app.exit(wish);
-        return std::nullopt;
-    } catch (CLI::ParseError const& bad) {
-        std::string line = bad.what();
-        for (char& c : line)
-            if (c == '\n') c = ' ';
-        throw usage_error(line);
-    }
+    if (!parse_words(app, argc, argv)) return std::nullopt;
     return understand(w, run.parsed() ? command::run : command::pack);
 }
 

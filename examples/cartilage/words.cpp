@@ -12,6 +12,7 @@
 #include <lacuna/core/error.hpp>
 #include <lacuna/core/text.hpp>
 
+#include "../command_line.hpp"
 #include "presets.hpp"
 
 namespace cartilage {
@@ -61,16 +62,11 @@ double positive_number(char const* option, std::string const& word, char const* 
 }
 
 bool parse_words(CLI::App& app, int argc, char const* const* argv) {
+    app.set_version_flag("--version", programs::version_text("cartilage"));
     try {
-        app.parse(argc, argv);
-        return true;
-    } catch (CLI::Success const& wish) {
-        app.exit(wish);
-        return false;
-    } catch (CLI::ParseError const& bad) {
-        std::string line = bad.what();
-        std::replace(line.begin(), line.end(), '\n', ' ');
-        throw usage_error(line);
+        return programs::parse(app, argc, argv);
+    } catch (std::invalid_argument const& bad) {
+        throw usage_error(bad.what());
     }
 }
 

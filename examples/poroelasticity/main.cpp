@@ -9,6 +9,7 @@
 #include <lacuna/observe/run_directory.hpp>
 #include <lacuna/observe/stop_signal.hpp>
 
+#include "../command_line.hpp"
 #include "cases.hpp"
 #include "output.hpp"
 
@@ -40,17 +41,8 @@ request understand(int argc, char const* const* argv) {
     app.add_flag("--force", r.force, "replace the files of the case that are in DIR");
     app.add_flag("--json", r.json, "rows of quantity, value, reference, relative_error as JSON on stdout");
     app.add_flag("--quick", r.quick, "a coarse body and a short run");
-    try {
-        app.parse(argc, argv);
-    } catch (CLI::Success const& wish) {
-        app.exit(wish);
-        return r;
-    } catch (CLI::ParseError const& bad) {
-        std::string line = bad.what();
-        for (char& c : line)
-            if (c == '\n') c = ' ';
-        throw usage_error(line);
-    }
+    app.set_version_flag("--version", programs::version_text("poroelasticity"));
+    if (!programs::parse(app, argc, argv)) return r;
     if (r.name == "terzaghi") r.run = poroelasticity::run_terzaghi;
     if (r.name == "mandel") r.run = poroelasticity::run_mandel;
     if (r.name == "cryer") r.run = poroelasticity::run_cryer;

@@ -9,6 +9,7 @@
 #include <lacuna/core/error.hpp>
 #include <lacuna/observe/stop_signal.hpp>
 
+#include "../command_line.hpp"
 #include "checkpoints.hpp"
 #include "key_table.hpp"
 #include "runner.hpp"
@@ -51,6 +52,7 @@ int run(request const& asked) {
     }
     lacuna::watch_stop_signals();
     lacuna_run::results out(scenario, asked.force, start);
+    if (!asked.quiet && lacuna::is_terminal(stderr)) out.show_progress(stderr);
     out.begin();
     try {
         if (!run->run(out)) return say_stopped(asked, out, *run);
@@ -76,15 +78,13 @@ int parse(int argc, char** argv, request& asked) {
     app.add_option("--restart", asked.checkpoint, "go on from a checkpoint of the same scenario");
     app.add_flag("--force", asked.force, "replace the results that are in the output directory; other files in it stay");
     app.add_flag("--quiet", asked.quiet, "say nothing but errors");
+    app.set_version_flag("--version", programs::version_text("lacuna-run"));
     try {
-        app.parse(argc, argv);
-    } catch (CLI::CallForHelp const& help) {
-        return app.exit(help);
-    } catch (CLI::ParseError const& bad) {
+        return programs::parse(app, argc, argv) ? -1 : int(done);
+    } catch (std::invalid_argument const& bad) {
         std::fprintf(stderr, "lacuna-run: %s\n", bad.what());
         return refused;
     }
-    return -1;
 }
 
 } // namespace

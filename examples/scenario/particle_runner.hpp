@@ -261,6 +261,7 @@ public:
     }
     lacuna::run_control on_step(simulation const& sim) {
         run_.tell_row(out_);
+        out_.passed(sim.steps());
         auto const& o = run_.scenario_.out;
         auto const due = [&](long long every) { return every > 0 && sim.steps() % every == 0; };
         if (due(o.vtk_every)) write_vtk(out_, run_.frame(), run_.scenario_, run_.journal_);
@@ -286,12 +287,14 @@ bool particle_runner<Model>::run(results& out) {
         if (o.picture_every > 0) write_picture(out, frame(), scenario_, journal_);
     }
     watcher watch(*this, out);
+    auto const& set = scenario_.simulation;
+    auto const left = [&] {
+        return set.steps ? double(*set.steps - sim_->steps()) : std::ceil((*set.end_time - sim_->time()) / sim_->time_step());
+    };
+    out.expect(sim_->steps(), left(), sim_->size());
     while (!is_over() && lacuna::stop_signal() == 0) {
-        auto const& set = scenario_.simulation;
-        double const left = set.steps ? double(*set.steps - sim_->steps())
-                                      : std::ceil((*set.end_time - sim_->time()) / sim_->time_step());
         try {
-            sim_->run(std::max(1LL, (long long)(std::min(left, 1e15))), watch);
+            sim_->run(std::max(1LL, (long long)(std::min(left(), 1e15))), watch);
         } catch (lacuna::unstable_run const&) {
             // The step that was not finished may have broken bonds.
             for (auto const& e : sim_->events())

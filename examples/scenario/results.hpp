@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
+#include <cstdio>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include <lacuna/observe/progress.hpp>
 #include <lacuna/observe/run_directory.hpp>
 
 #include "journal.hpp"
@@ -46,6 +50,21 @@ public:
     /// Writes summary.json, last: its presence says that all is there.
     /// \param ended whether the run is at its end, and not to be resumed
     void finish(std::string const& summary, bool ended);
+    /// Shows on a terminal how far the run is. \param sink nullptr: nothing is shown
+    void show_progress(std::FILE* sink) noexcept { sink_ = sink; }
+    /// The run goes from step `from` on, for about so many steps.
+    void expect(long long from, double steps, std::size_t particles) {
+        lacuna::progress_options how;
+        how.sink = sink_;
+        how.steps = std::max(1LL, (long long)(std::min(steps, 1e15)));
+        how.particles = std::max(1LL, (long long)(particles));
+        how.terminal = true;
+        from_ = from;
+        progress_.emplace(how);
+    }
+    void passed(long long step) {
+        if (sink_ != nullptr && progress_) progress_->update(step - from_);
+    }
     /// Removes what was written, of a run that is refused after all.
     void discard() { directory_.discard(); }
 
@@ -58,6 +77,9 @@ private:
     resumption start_;
     lacuna::run_directory directory_;
     lacuna::growing_file probes_, events_, particles_, bonds_, pores_;
+    std::FILE* sink_ = nullptr;
+    std::optional<lacuna::progress_reporter<>> progress_;
+    long long from_ = 0;
     bool stopped_between_ = false; // checkpoint.bin is of a stop, not of output.checkpoint_every
 };
 

@@ -10,6 +10,7 @@
 #include <lacuna/observe/run_directory.hpp>
 #include <lacuna/observe/stop_signal.hpp>
 
+#include "../command_line.hpp"
 #include "output.hpp"
 #include "uniaxial.hpp"
 
@@ -51,17 +52,10 @@ wish understand(int argc, char const* const* argv) {
     app.add_flag("--elastic", q.elastic, "bonds that never break: moduli alone");
     app.add_flag("--force", w.force, "replace the results that are in DIR");
     app.add_flag("--json", w.json, "the figures as JSON on stdout");
-    try {
-        app.parse(argc, argv);
-    } catch (CLI::Success const& asked) {
-        app.exit(asked);
+    app.set_version_flag("--version", programs::version_text("uniaxial"));
+    if (!programs::parse(app, argc, argv)) {
         w.help = true;
         return w;
-    } catch (CLI::ParseError const& bad) {
-        std::string line = bad.what();
-        for (char& c : line)
-            if (c == '\n') c = ' ';
-        throw std::invalid_argument(line);
     }
     std::map<std::string, uniaxial::specimen_kind> const kinds{{"random", uniaxial::specimen_kind::random},
                                                                {"lattice", uniaxial::specimen_kind::lattice}};
