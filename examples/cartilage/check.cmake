@@ -87,6 +87,8 @@ if(CASE STREQUAL "refusals")
   call(0 --help)
   call(0 run --help)
   call(0 --version)
+  refused("did you mean --force" run --zone surface --load 5 --forse)
+  refused("did you mean study" stduy)
   files("." kept)
 
 elseif(CASE STREQUAL "pack")
