@@ -49,6 +49,7 @@ public:
             add_sources(water_, net, points{});
             flow_.emplace(p, std::move(net));
         } else {
+            lacuna::require_apart(where(), [](std::size_t k) { return k; });
             flow_.emplace(p, make_network(water_, where(), radius_.data()), Real(s.simulation.thickness), where(),
                           radius_.data());
         }
