@@ -120,6 +120,9 @@ private:
         case own_step: return !(flow_alone() && is_number("fluid"));
         case auto_step: return !is_number("simulation") && !(flow_alone() && is_number("fluid"));
         case bounded_step: return !flow_alone() || (!implicit() && (is_number("simulation") || is_number("fluid")));
+        case density_used:
+        case material_used: return !flow_alone();
+        case friction_used: return contacts();
         case normal_besides_young: return !young(beside) || bonds_take("normal_stiffness");
         case shear_besides_young: return !young(beside) || bonds_take("shear_stiffness");
         case normal_used: return contacts() || bonds_take("normal_stiffness");

@@ -90,7 +90,10 @@ enum needs : std::uint64_t {
     lasting_pores = 1ull << 36,
     materials_named = 1ull << 37,
     normal_besides_young = 1ull << 38,
-    shear_besides_young = 1ull << 39
+    shear_besides_young = 1ull << 39,
+    density_used = 1ull << 40,
+    friction_used = 1ull << 41,
+    material_used = 1ull << 42
 };
 
 /// One condition of these.
@@ -112,13 +115,13 @@ inline constexpr condition conditions[] = {
     {thickness_used, "not where spheres have neither fluid, strengths nor pressures", "nothing here depends on it: spheres have none"},
     {gravity_given, "only with gravity", "there is no gravity"},
     {own_step, "not with fluid.time_step of flow alone", "fluid.time_step is the step of flow alone"},
-    {auto_step, "only with time_step = \"auto\"", "time_step is given"},
+    {auto_step, "of time_step = \"auto\"", ""},
     {bounded_step, "with implicit or automatic flow alone there is nothing to allow", "no step is given here that could be unstable"},
     {no_steps, "not with steps", "steps is given"},
-    {normal_used, "only where a contact or a bond takes it", "no contact and no bond takes it"},
-    {shear_used, "only where a contact or a bond takes it", "no contact and no bond takes it"},
-    {tension_used, "only where a bond takes it", "no bond takes it"},
-    {shearing_used, "only where a bond takes it", "no bond takes it"},
+    {normal_used, "needed where a contact or a bond takes it", ""},
+    {shear_used, "needed where a contact or a bond takes it", ""},
+    {tension_used, "of bonds", ""},
+    {shearing_used, "of bonds", ""},
     {no_young, "not needed with young_modulus", ""},
     {young_given, "only with young_modulus", "young_modulus is not given"},
     {no_file, "not with file", "the file has it"},
@@ -137,8 +140,10 @@ inline constexpr condition conditions[] = {
     {remeshed, "only with rule = \"when_needed\"", "rule is not \"when_needed\""},
     {bonds_there, "only with [bonds]", "there are no [bonds]"},
     {lasting_pores, "not with remeshing", "remeshing numbers pores anew: give near"},
-    {materials_named, "of flow alone only with particles.file, for its names",
-     "fluid.mechanical_coupling is false: particles have no material"},
+    {materials_named, "not needed of flow alone but for the names in particles.file", ""},
+    {density_used, "needed where particles move", ""},
+    {friction_used, "needed of contacts", ""},
+    {material_used, "needed where particles move", ""},
     {normal_besides_young, "with young_modulus needed of bonds alone", ""},
     {shear_besides_young, "with young_modulus needed of bonds alone", ""},
 };

@@ -198,6 +198,7 @@ std::optional<lacuna::difference> first_difference(scenario before, scenario now
 std::string statement_of(scenario const& s) {
     statement one{hash_of_keys(), s, held_axes(s.bodies)};
     one.said.bodies.fix.clear();
+    one.said.simulation.threads = 1; // the same bytes for any number
     for_each_list(one, [](auto& list, std::size_t) { shorten(list); });
     lacuna::state_writer bytes;
     bytes(one);

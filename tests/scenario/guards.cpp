@@ -37,7 +37,7 @@ TEST_CASE("particles at one place are named, dry, wet and by --check", "[guards]
     std::string const places = "position = [[0.0, 0.0], [1.0, 0.0], [0.5, 0.875], [0.5, 0.875], [0.5, -0.875]]\n";
     std::string const fluid = "[fluid]\nbulk_modulus = 1e6\nconductivity = 1e-9\naperture = { law = \"constant\", value = 1e-4 }\n";
     for (std::string const bonds : {"", "[bonds]\ntouching = true\ngap = 1e-9\n"})
-        for (std::string const& wet : {std::string(), fluid})
+        for (std::string const& wet : {std::string(), fluid, bonds.empty() ? fluid + "mechanical_coupling = false\n" : fluid})
             for (std::string const options : {"", "--check"}) {
                 auto const ran = run(deck("steps = 10", places + bonds + wet), options);
                 INFO(bonds << wet << options << "\n" << ran.err);

@@ -47,6 +47,8 @@ way way_of(needs what) {
     case with_particles: return {{}, {{"fluid.network.pores", pores}}};
     case materials_named: return {{{"particles.file", "\"x.csv\""}}, rigid};
     case bounded_step:
+    case density_used:
+    case material_used:
     case moving: return {{}, rigid};
     case with_contacts: return {{}, {{"simulation.contact_law", "\"none\""}}};
     case with_hertz: return {{{"simulation.contact_law", "\"hertz_mindlin\""}}, {}};
@@ -56,6 +58,7 @@ way way_of(needs what) {
     case bonds_there:
     case tension_used:
     case shearing_used: return {bonds, {}};
+    case friction_used:
     case normal_used:
     case shear_used:
     case with_forces: return {{}, {{"simulation.contact_law", "\"none\""}}};

@@ -148,7 +148,7 @@ TEST_CASE("pressures, prescribed velocities, steps and probes that are others at
         return two_stages("restart_other", free_bodies(50, first), free_bodies(100, second));
     };
     // Pressure on the top: pi r^2 of it pushes each disc down, 1 Pa on a disc of 1000 kg/m^3: 1e-3 m/s^2.
-    auto const pressed = run(load("pressure = 1000.0", 0, ""), load("pressure = 3000.0\nside = \"bottom\"", 0, ""));
+    auto const pressed = run(load("pressure = 1000.0\narea = \"disc\"", 0, ""), load("pressure = 3000.0\narea = \"disc\"\nside = \"bottom\"", 0, ""));
     REQUIRE_THAT(pressed.last("velocity.y[1]"), WithinRel(-2.0 + 0.5 * (-1.0 + 3.0), 1e-12));
     // From 0.5 m/s, half way up a ramp to 1 m/s, to 3 m/s within 0.2 s; let go, it keeps what it has and falls.
     std::string const slow = load("velocity = [1.0, 0.0]", 1.0), fast = load("velocity = [3.0, 0.0]", 0.2);
