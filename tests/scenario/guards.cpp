@@ -59,7 +59,7 @@ TEST_CASE("an overlap of more than a radius at the start is refused, or allowed 
         CHECK_THAT(ran.err, contains_text("initial overlap of particles 0 and 1") && contains_text("1.2 of the smaller radius"));
     }
     for (std::string const guards : {"{ overlap = false }", "{ overlap_limit = 1.5 }"})
-        CHECK(run(deck("steps = 10\nguards = " + guards, row)).status == 0);
+        CHECK(run(deck("steps = 10\ntime_step = 1e-4\nguards = " + guards, row)).status == 0);
 }
 
 TEST_CASE("a crushed bond is named, with its limit", "[guards][program]") {

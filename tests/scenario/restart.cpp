@@ -353,6 +353,7 @@ std::vector<change> const of_body{
     {"fluid.sources[].near", "pore = 1,", "near = [1.0, 0.5],", "fluid.sources[0].near"},
     {"fluid.sources[].flow", "flow = 1e-6", "flow = 2e-6", "fluid.sources[0].flow"},
     {"fluid.merge_conductance", "merge_conductance = 1e9\n", "", "fluid.merge_conductance"},
+    {"fluid.minimum_pressure", "merge_conductance = 1e9\n", "merge_conductance = 1e9\nminimum_pressure = -5.0\n", "fluid.minimum_pressure"},
 };
 
 std::vector<change> const of_bare{
@@ -370,6 +371,12 @@ TEST_CASE("each key that is another one at a restart is refused by its path, or 
     std::set<std::string> seen;
     check_refused("restart_body", body, of_body, seen);
     check_refused("restart_bare", bare, of_bare, seen);
+    std::string const rule = "rule = \"when_needed\", interval = 50, on_broken_bond = false";
+    check_refused("restart_remeshing", with(body, "sources = [{ pore = 1, flow = 1e-6 }]\n", "remeshing = { " + rule + " }\n"),
+                  {{"fluid.remeshing.rule", rule, "rule = \"never\"", "fluid.remeshing.rule"},
+                   {"fluid.remeshing.interval", "interval = 50", "interval = 60", "fluid.remeshing.interval"},
+                   {"fluid.remeshing.on_broken_bond", "broken_bond = false", "broken_bond = true", "fluid.remeshing.on_broken_bond"}},
+                  seen);
     // Rigid particles, flow alone.
     auto const rigid = std::string(R"(
 [simulation]
