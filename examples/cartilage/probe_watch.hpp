@@ -14,6 +14,7 @@
 #include <lacuna/core/error.hpp>
 #include <lacuna/observe/energy_ledger.hpp>
 #include <lacuna/observe/observer.hpp>
+#include <lacuna/observe/stop_signal.hpp>
 
 #include "aftermath.hpp"
 #include "ending.hpp"

@@ -14,6 +14,7 @@
 #include <lacuna/observe/lammps_dump.hpp>
 #include <lacuna/observe/plot_axis.hpp>
 #include <lacuna/observe/progress.hpp>
+#include <lacuna/observe/vtk_collection.hpp>
 #include <lacuna/observe/vtk.hpp>
 
 #include "catch.hpp"
