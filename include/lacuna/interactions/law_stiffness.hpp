@@ -107,7 +107,7 @@ void visit_depths(particle_store<Real, Dim> const& store, Table const& table, Pa
 
 /// Calls visit(i, j, normal, normal_stiffness, shear_stiffness, prestress, lever_i, lever_j) for every bond of a table,
 /// or for the contacts that touch or may under an assumption; the prestress is the pair's force over its distance. N/m, m.
-/// \param bonded see law_stiffness()
+/// \tparam Bonded see law_stiffness()
 template <class Law, bool Bonded, class Real, int Dim, class Table, class Parameters, class Visit>
 void visit_stiffness(particle_store<Real, Dim> const& store, Table const& table, Parameters const& parameters,
                      contact_assumption const& assumed, Visit const& visit) {
