@@ -181,7 +181,7 @@ TEST_CASE("at the boundary: what goes away gives its content to its neighbours, 
 
     auto away = made(b, {{1, 4, 2}});
     for (auto& p : big.pressure) p = 4;
-    auto const apart = carry_fluid(made(b, {{0, 3, 2}}), away, b.points(), modulus, -infinity);
+    auto const apart = carry_fluid(made(b, {{0, 2, 3}}), away, b.points(), modulus, -infinity);
     REQUIRE(apart.lost == 0);
     auto lone = made(b, {{1, 4, 2}});
     lone.pressure[0] = 3;
