@@ -75,13 +75,13 @@ TEST_CASE("a resumed run has the same bits though its table of contacts is laid 
         CAPTURE(at);
         auto first = crowd();
         for (int n = 0; n < at; ++n) first.step();
-        auto const file = lacuna::detail::checkpoint_of(first);
+        auto const file = lacuna::checkpoint_of(first);
         auto second = crowd(at == 200 ? 2 : 1, at != 240);
-        lacuna::detail::resume_from(file, "in memory", second);
+        lacuna::resume_from(file, "in memory", second);
         another_layout = another_layout || packs(second) != packs(first);
-        REQUIRE(lacuna::detail::checkpoint_of(second).state == file.state);
+        REQUIRE(lacuna::checkpoint_of(second).state == file.state);
         for (int n = at; n < 300; ++n) second.step();
-        REQUIRE(lacuna::detail::checkpoint_of(second).state == lacuna::detail::checkpoint_of(whole).state);
+        REQUIRE(lacuna::checkpoint_of(second).state == lacuna::checkpoint_of(whole).state);
     }
     REQUIRE(another_layout);
 }

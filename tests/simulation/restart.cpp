@@ -203,7 +203,7 @@ std::vector<change<Model>> common_changes() {
     all.push_back({"remeshing.on_broken_bond", [](auto& p) { p.remeshing.on_broken_bond = true; }});
     all.push_back({"time_step", [](auto& p) { p.time_step = 2e-6; }});
     all.push_back({"safety", [](auto& p) { p.safety = 0.3; }});
-    all.push_back({"follow_critical_step", [](auto& p) { p.follow_critical_step = true; }});
+    all.push_back({"follow_critical_step", [](auto& p) { p.follow_critical_step = false; }});
     all.push_back({"velocities_on_time", [](auto& p) { p.velocities_on_time = !p.velocities_on_time; }});
     all.push_back({"allow_unstable_step", [](auto& p) { p.allow_unstable_step = true; }});
     all.push_back({"start_time", [](auto& p) { p.start_time = 1; }});
