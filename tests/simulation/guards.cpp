@@ -119,7 +119,9 @@ TEST_CASE("a step that has become too long is caught within 100 steps, by the sp
             }
             INFO(share << ": " << text);
             if (guarded)
-                CHECK_THAT(text, contains_text("grow fourfold") && contains_text("turn round") && contains_text("time step"));
+                // By the speeds, or before them by a look at the bound where a contact is another one.
+                CHECK(((text.find("grow fourfold") != text.npos && text.find("turn round") != text.npos) ||
+                       text.find("above the stable limit") != text.npos));
             else
                 CHECK(text.find("fourfold") == std::string::npos);
         }

@@ -152,7 +152,10 @@ TEST_CASE("bad calls are refused", "[refusal]") {
     REQUIRE_THROWS_WITH(run.apply(2, {0, 0}, 0, -1), contains_text("load on particle 2.ramp_time"));
     lacuna::packing<double, 2> one;
     one.add({0, 0}, 0.5);
-    lacuna::simulation<plane> alone(one);
+    struct untouchable : plane {
+        using contact_law = lacuna::no_contact;
+    };
+    lacuna::simulation<untouchable> alone(one);
     REQUIRE_THROWS_WITH(alone.step(), contains_text("time_step") && contains_text("without any stiffness"));
 }
 
