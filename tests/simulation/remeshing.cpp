@@ -349,7 +349,7 @@ TEST_CASE("the explicit flow's step is safe from the first step on, as throats o
             REQUIRE(sim.time_step() <= chosen); // shorter once the bond has failed
             sim.run(1);
         }
-        REQUIRE(sim.steps() < 64);
+        REQUIRE(sim.steps() % 64 != 0); // not at a regular look
         REQUIRE(sim.time_step() < chosen);
         REQUIRE(sim.time_step() <= 0.95 * sim.limits().flow * (1 + 1e-12));
     }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <lacuna/core/standard.hpp>
+
 /// \file
 /// Takes back the macros of Qhull's headers, many of which have common names; those against reading a header twice stay. A
 /// program that uses Qhull itself includes it before Lacuna, and keeps them.
