@@ -91,7 +91,10 @@ std::string vtk_text(vtk_surface const& s, Storage const& = {}) {
                 "\" format=\"appended\" offset=\"" + std::to_string(data.size()) + "\"/>\n";
         Storage::append(data, values.data(), values.size() * sizeof values[0]);
     };
-    auto const number = [](std::size_t n) { return "\"" + std::to_string(n) + "\""; };
+    auto const number = [](std::size_t n) {
+        std::string quoted(1, '"');
+        return quoted.append(std::to_string(n)).append(1, '"');
+    };
     auto const of = [&](vtk_surface::cells kind) { return number(s.kind == kind ? s.offsets.size() : 0); };
     text += "<Piece NumberOfPoints=" + number(s.coordinates.size() / 3);
     if (solid)
