@@ -177,7 +177,7 @@ elseif(CASE STREQUAL "no_overwrite")
   files(result ${run_files} notes.txt)
 
 elseif(CASE STREQUAL "owner")
-  # While a run has the directory, no other has; a run that was killed leaves it to the next, which is told of results.
+  # One run owns the directory. After it was killed the next run may have it, and finds the earlier results.
   find_program(sh sh)
   execute_process(COMMAND "${sh}" -c "'${PROGRAM}' run --zone deep --load 5 --length 84 --height 42 --duration 1000000 --quiet --out result & \
 while ! test -e result/cracks.csv; do sleep 0.05; done; \

@@ -37,7 +37,7 @@ enum class kind {
 struct rule {
     double least = -std::numeric_limits<double>::infinity(), most = std::numeric_limits<double>::infinity();
     bool above_least = false; ///< the least is not good itself
-    char const* text = "";    ///< as it is told
+    char const* text = "";    ///< as messages and help state it
     char const* choices = ""; ///< of a word, parted by '|'
 };
 inline constexpr rule any{};

@@ -14,10 +14,10 @@ constexpr std::size_t width = 112, indent = 30;
 
 bool begins(std::string_view text, std::string_view with) { return text.substr(0, with.size()) == with; }
 
-/// Whether the key is told in the section.
+/// Whether the section describes the key.
 bool is_in(key const& k, std::string_view section) {
     std::string_view const path = k.path;
-    // A table that only holds others is told by these.
+    // A table that only holds others is described by them.
     if ((k.what == kind::table || k.what == kind::tables) && *k.meaning == '\0') return false;
     return begins(path, section) && path.size() > section.size() && path.substr(section.size()) != ".*" &&
            (path[section.size()] == '.' || path[section.size()] == '[');

@@ -157,7 +157,7 @@ private:
     int file_ = -1;
 };
 
-/// Removes files under temporary names (see whole_file) that nobody writes any more.
+/// Removes files under temporary names (see whole_file) whose writer has ended.
 /// \param is_ours says by the name that the whole file would have had which ones
 template <class Rule>
 void remove_unfinished_files(std::filesystem::path const& directory, Rule const& is_ours) {

@@ -55,7 +55,7 @@ extern "C" inline void lacuna_on_stop_signal(int number) {
 namespace lacuna {
 
 /// From here on SIGINT, SIGTERM and SIGHUP (unless that is ignored, as under nohup) make stop_signal() say so, and SIGPIPE is
-/// ignored: a run goes on when nobody reads what it prints. For programs; the library does not call it.
+/// ignored: a run goes on when its output is no longer read. Programs call this; the library does not.
 inline void watch_stop_signals() noexcept {
     std::signal(SIGINT, lacuna_on_stop_signal);
     std::signal(SIGTERM, lacuna_on_stop_signal);

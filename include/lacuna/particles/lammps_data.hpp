@@ -30,7 +30,7 @@
 /// packing.bond_type; densities are in packing.density. Coefficients and masses of types are passed over: parameters are the
 /// model's, and masses follow from densities.
 ///
-/// A data file does not say along which axes its box is periodic, the reader is told. Along open axes particles must be in
+/// A data file does not say along which axes its box is periodic: the caller does. Along open axes particles must be in
 /// the box, with image flags of 0, and no bond may lead through its sides. Along periodic axes positions are unwrapped by
 /// their image flags, and packing.period is to be given to the domain.
 
