@@ -65,7 +65,6 @@ inline simulator::parameters porous_parameters(lattice_medium const& m, double i
     add(m.disc_mass / 2, disc * mark_share * mark_share, 2);
     p.damping.factor = 0.5;
     p.safety = 0.8;
-    p.guards.overlap = false; // discs of a block overlap by a radius from the start
     p.follow_critical_step = false; // those who follow the fluid take one step for the whole run
     p.flow.bulk_modulus = m.bulk_modulus;
     p.flow.initial_pressure = initial_pressure;

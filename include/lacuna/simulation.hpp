@@ -660,7 +660,7 @@ private:
             throw_unstable(store_, now(), -1,
                            "the time step of " + to_text(*time_step_) + " s is above the stable limit, which is " +
                                to_text(critical) + " s by now",
-                           "contacts have formed or become stiffer, or bonds have failed: a step that is not given follows "
+                           "contacts have formed or become stiffer, bonds have failed, or supports were freed: a step that is not given follows "
                            "the limit; allow_unstable_step goes on without");
         }
         looked(assumed, found.rigorous);

@@ -17,12 +17,12 @@ density = 1000.0
 normal_stiffness = 1e6
 shear_stiffness = 5e5
 friction = 0.5
-tensile_strength = 1e4
-shear_strength = 1e4
 )";
+std::string const strengths = "tensile_strength = 1e4\nshear_strength = 1e4\n";
 
 std::string deck(std::string const& settings, std::string const& rest) {
-    return "[simulation]\n" + settings + "\n" + material + "[particles]\nradius = 0.5\nmaterial = \"m\"\n" + rest +
+    bool const bonded = rest.find("[bonds]") != rest.npos;
+    return "[simulation]\n" + settings + "\n" + material + (bonded ? strengths : "") + "[particles]\nradius = 0.5\nmaterial = \"m\"\n" + rest +
            "\n[output]\ndirectory = \"out\"\n";
 }
 program::result run(std::string const& text, std::string const& options = "") {

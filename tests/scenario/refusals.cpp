@@ -190,6 +190,8 @@ TEST_CASE("each bad value is refused by its path", "[refusal]") {
         {"quantity = \"position.x\"", "quantity = \"position.z\"", "probes[0].quantity = \"position.z\": must be a known quantity"},
         {"pairs = [[0, 1]]", "pairs = [[0, 1]]\nbending_stiffness = 1.0", "bonds.bending_stiffness = 1: must be left out"},
         {"pairs = [[0, 1]]", "pairs = [[0, 1]]\nshear_stiffness = [1.0, 2.0]", "bonds.shear_stiffness = [...]: must be one value or one per bond"},
+        {"pairs = [[0, 1]]", "pairs = [[0, 1]]\ntensile_force = 1.0", "materials.matrix.tensile_strength = 1e+300: must be left out: no bond takes it"},
+        {"time_step = \"auto\"", "time_step = 1e-9", "simulation.safety = 0.2: must be left out: time_step is given"},
         {"gravity = [0.0, 0.0]", "gravity = [0.0, 0.0]\nfluid_density = 1.0", "simulation.fluid_density = 1: must be left out: there is no gravity"},
         {"mechanical_coupling = true", "mechanical_coupling = false", "must be left out: fluid.mechanical_coupling is false: particles do not move"},
         {"solver = \"explicit\"", "solver = \"implicit\"\nminimum_pressure = 0.0", "fluid.minimum_pressure = 0: must be left out: solver is \"implicit\""},

@@ -193,7 +193,6 @@ contact_law = "frictional_spring"
 bond_law = "brittle_spring"
 integrator = "symplectic_euler"
 time_step = 1e-6
-safety = 0.2
 allow_unstable_step = false
 thickness = 1.5
 gravity = [0.0, -1.0]
@@ -204,8 +203,6 @@ density = 1000.0
 normal_stiffness = 1e6
 shear_stiffness = 5e5
 friction = 0.2
-tensile_strength = 4e8
-shear_strength = 3e8
 [materials.b]
 density = 900.0
 normal_stiffness = 8e5
@@ -303,7 +300,6 @@ std::vector<change> const of_body{
     {"simulation.integrator", "\"symplectic_euler\"", "\"velocity_verlet\"", "simulation.integrator"},
     {"simulation.time_step", "time_step = 1e-6", "time_step = 2e-6", "simulation.time_step"},
     {"simulation.time_step", "time_step = 1e-6", "time_step = \"auto\"", "simulation.time_step"},
-    {"simulation.safety", "safety = 0.2", "safety = 0.3", "simulation.safety"},
     {"simulation.allow_unstable_step", "step = false", "step = true", "simulation.allow_unstable_step"},
     {"simulation.thickness", "thickness = 1.5", "thickness = 1.0", "simulation.thickness"},
     {"simulation.gravity", "-1.0]\nfluid", "-9.81]\nfluid", "simulation.gravity[1]"},
@@ -315,8 +311,6 @@ std::vector<change> const of_body{
     {"materials.*.normal_stiffness", "normal_stiffness = 8e5", "normal_stiffness = 9e5", "materials.b.normal_stiffness"},
     {"materials.*.shear_stiffness", "shear_stiffness = 4e5", "shear_stiffness = 3e5", "materials.b.shear_stiffness"},
     {"materials.*.friction", "friction = 0.25", "friction = 0.26", "materials.b.friction"},
-    {"materials.*.tensile_strength", "tensile_strength = 4e8\n", "", "materials.a.tensile_strength"},
-    {"materials.*.shear_strength", "shear_strength = 3e8", "shear_strength = 2e8", "materials.a.shear_strength"},
     {"particles.position", "[1.5, 0.875]]", "[1.5, 0.876]]", "particles.position[3][1]"},
     {"particles.radius", "radius = 0.5", "radius = [0.5, 0.5, 0.49, 0.5]", "particles.radius[2]"},
     {"particles.material", "\"b\", \"b\"]", "\"b\", \"a\"]", "particles.material[3]"},
@@ -371,6 +365,14 @@ TEST_CASE("each key that is another one at a restart is refused by its path, or 
     std::set<std::string> seen;
     check_refused("restart_body", body, of_body, seen);
     check_refused("restart_bare", bare, of_bare, seen);
+    // With the step of "auto" and the materials' own strengths.
+    auto strong = with(with(body, "time_step = 1e-6\n", "safety = 0.2\n"), "tensile_force = 1e8\nshear_force = 9e7\n", "");
+    strong = with(strong, "friction = 0.2\n", "friction = 0.2\ntensile_strength = 4e8\nshear_strength = 3e8\n");
+    check_refused("restart_strong", strong,
+                  {{"simulation.safety", "safety = 0.2", "safety = 0.3", "simulation.safety"},
+                   {"materials.*.tensile_strength", "tensile_strength = 4e8\n", "", "materials.a.tensile_strength"},
+                   {"materials.*.shear_strength", "shear_strength = 3e8", "shear_strength = 2e8", "materials.a.shear_strength"}},
+                  seen);
     std::string const rule = "rule = \"when_needed\", interval = 50, on_broken_bond = false";
     check_refused("restart_remeshing", with(body, "sources = [{ pore = 1, flow = 1e-6 }]\n", "remeshing = { " + rule + " }\n"),
                   {{"fluid.remeshing.rule", rule, "rule = \"never\"", "fluid.remeshing.rule"},
@@ -461,7 +463,6 @@ TEST_CASE("another way to write the same scenario goes on", "[restart][checkpoin
     REQUIRE(here.run("--quiet case.toml").status == 0);
     auto other = with(body, "radius = 0.5", "radius = [0.5, 0.5, 0.5, 0.5]");
     other = with(other, "fix = [{ particles = [0], axes = \"xy\" }]", "fix = [{ particles = [0], axes = \"y\" }, { particles = [0], axes = \"x\" }]");
-    other = with(other, "safety = 0.2\n", "");
     other = with(other, "steps = 3", "steps = 9\nthreads = 2\nguards = { motion_limit = 0.2 }");
     other = with(other, "shear_force = 9e7", "shear_force = [9e7, 9e7]");
     here.write("other.toml", other + "[output]\ndirectory = \"later\"\n");

@@ -121,7 +121,7 @@ void check_energy(particle_store<Real, Dim> const& store, energy_ledger const& l
                        "energy runs away: the time step is above the stable one, or a law makes energy");
 }
 
-/// Of the bonds that were made at less than `limit` times the smaller radius of overlap, one that overlaps more by now;
+/// Of the bonds that were not made near `limit` times the smaller radius of overlap, one that overlaps more by now;
 /// its slot, or -1.
 /// \param deep_at_start labels of the others, sorted
 template <class Real, int Dim, class Table>

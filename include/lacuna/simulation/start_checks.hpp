@@ -67,7 +67,7 @@ void require_resolved(particle_store<Real, Dim> const& store, body_extent<Real> 
 struct start_pairs {
     double deepest = 0;                            ///< overlap of two particles in contact over the smaller radius, 1
     std::array<std::int32_t, 2> particles{-1, -1}; ///< their ids
-    std::vector<std::int32_t> deep_bonds;          ///< bonds that overlap by more than the limit, sorted
+    std::vector<std::int32_t> deep_bonds;          ///< bonds made at more than 0.9 of the limit: bodies of overlapping particles; sorted
 };
 
 /// \param limit of the overlap of two particles that are not bonded, over the smaller radius, 1
@@ -100,7 +100,7 @@ start_pairs check_start(particle_store<Real, Dim> const& store, Interactions con
     });
     visit(pairs.bonds(), [&]([[maybe_unused]] std::size_t s, std::array<std::int32_t, 2> const&, double overlap) {
         if constexpr (requires { pairs.bonds().label(s); })
-            if (overlap > limit) found.deep_bonds.push_back(pairs.bonds().label(s));
+            if (overlap > 0.9 * limit) found.deep_bonds.push_back(pairs.bonds().label(s));
     });
     std::sort(found.deep_bonds.begin(), found.deep_bonds.end());
     auto const who = [](std::array<std::int32_t, 2> const& ids) {

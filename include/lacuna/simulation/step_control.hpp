@@ -28,7 +28,11 @@ public:
 
     contact_assumption const& assumed() const noexcept { return assumed_; }
     contact_forecast<Model> const& forecast() const noexcept { return forecast_; }
-    void forget_forecast() noexcept { forecast_.forget(); }
+    /// Supports have changed: another look is due.
+    void forget_forecast() noexcept {
+        forecast_.forget();
+        due_ = true;
+    }
     /// Whether a contact that forms may make the step unsafe.
     bool cannot_wait() const noexcept { return !can_wait_; }
     /// How often a look was made.
