@@ -70,6 +70,54 @@ void meet(double speed, double young) {
     CHECK(std::fabs(sim.energy().residual()) < 0.02 * sim.energy().largest());
 }
 
+/// F = k x + c x^2, with a dent or without: let out, it is stiffer by a factor.
+template <bool States>
+struct curved_contact {
+    struct material {
+        double linear = 1e6, square = 0, unloading = 1e6;
+        void validate(std::string const&) const {}
+    };
+    template <class T>
+    struct parameters {
+        T linear, square, unloading;
+    };
+    template <class T, int Dim>
+    struct history {
+        T deepest;
+    };
+    static parameters<double> combine(material const& a, material const&, double) { return {a.linear, a.square, a.unloading}; }
+    template <class T, int Dim>
+    static history<T, Dim> initial(T, T) {
+        return {T(0)};
+    }
+    template <class T, int Dim>
+    static history<T, Dim> hand_over(parameters<T> const&, lacuna::pair_motion<T, Dim> const&, T,
+                                     lacuna::vec<T, lacuna::shear_dim<Dim>> const&) {
+        return {T(0)};
+    }
+    template <class T, int Dim>
+    static lacuna::pair_response<T, Dim, history<T, Dim>>
+    evaluate(parameters<T> const& p, lacuna::pair_motion<T, Dim> const& m, history<T, Dim> const& h) {
+        using lacuna::max;
+        T overlap = max(m.touching_distance() - m.distance, T(0)), deepest = max(overlap, h.deepest);
+        T force = max(p.linear * deepest + p.square * deepest * deepest - p.unloading * (deepest - overlap), T(0));
+        return {-force, {}, {deepest}, T(0), T(0)};
+    }
+    template <class T>
+    static T stiffness(parameters<T> const& p) requires(!States) {
+        return p.unloading;
+    }
+    template <class T, int Dim>
+    static T stiffness(parameters<T> const& p, lacuna::pair_motion<T, Dim> const& m, history<T, Dim> const&) requires(States) {
+        using lacuna::max;
+        return p.linear + T(2) * p.square * max(m.touching_distance() - m.distance, T(0));
+    }
+};
+template <bool States, int Dim, class Real = double>
+struct curved : lacuna::default_model<Dim, Real> {
+    using contact_law = curved_contact<States>;
+};
+
 /// Stops a run after a step.
 struct stop_at {
     static constexpr lacuna::stage stages = lacuna::stage::step;
@@ -247,6 +295,34 @@ TEST_CASE("the step follows contacts, and a look is rare in a lively run", "[ste
     CHECK(sim.looks() - before >= 5);
     CHECK(sim.looks() - before <= 12);
     CHECK(sim.time_step() < 0.5 * sim.limits().critical());
+}
+
+TEST_CASE("a contact law of one's own: the step counts with the stiffness that it states", "[step][refusal]") {
+    auto const limit_of = [](auto model, auto const& contact) {
+        using type = decltype(model);
+        using real = typename type::real;
+        lacuna::packing<real, type::dim> two;
+        two.add({}, real(0.5));
+        lacuna::vec<real, type::dim> x{};
+        x[0] = real(0.99);
+        two.add(x, real(0.5));
+        lacuna::simulation_parameters<type> p;
+        p.materials[0].density = 2500;
+        p.materials[0].contact = contact;
+        lacuna::simulation<type> sim(two, p);
+        return sim.limits().critical() / std::sqrt(sim.mass(0)); // 2 / omega = sqrt(2 m / k)
+    };
+    // Pressed in with 1e6 N/m, let out with 4e6 N/m.
+    curved_contact<false>::material const dents{1e6, 0, 4e6};
+    CHECK_THAT(limit_of(curved<false, 2>{}, dents), WithinRel(std::sqrt(2 / 4e6), 1e-6));
+    CHECK_THAT(limit_of(curved<false, 3>{}, dents), WithinRel(std::sqrt(2 / 4e6), 1e-6));
+    CHECK_THAT(limit_of(curved<false, 2, float>{}, dents), WithinRel(std::sqrt(2 / 4e6), 1e-5));
+    // A stiffness that grows is followed by a law that says so, bounded by one that states the most; else it is refused.
+    curved_contact<false>::material const grows{1e6, 1e7, 1e6};
+    CHECK_THROWS_WITH(limit_of(curved<false, 2>{}, grows),
+                      contains_text("stiffness of the contact law") && contains_text("stiffness(parameters, pair_motion, history)"));
+    CHECK_NOTHROW(limit_of(curved<false, 2>{}, curved_contact<false>::material{1e6, 1e7, 5e6}));
+    CHECK(limit_of(curved<true, 2>{}, curved_contact<true>::material{1e6, 1e7, 0}) < std::sqrt(2 / 1.2e6) * (1 + 1e-6));
 }
 
 TEST_CASE("pairs that are far from touching make no step shorter", "[step]") {

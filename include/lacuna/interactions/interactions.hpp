@@ -44,8 +44,8 @@ public:
 
     interactions() = default;
     /// \param own values of single bonds: none, or one entry per bond
-    /// \throws std::invalid_argument for bonds between unknown, equal or already bonded particles, and for values that
-    ///         the bond law does not take
+    /// \throws std::invalid_argument for bonds between unknown, equal or already bonded particles, for values that the
+    ///         bond law does not take, and as require_stated_stiffness()
     interactions(store_type const& store, std::span<std::array<std::int32_t, 2> const> bonds,
                  std::span<material const> materials, double thickness, interaction_parameters const& parameters,
                  typename Damping::parameters const& damping, std::span<bond_values const> own = {})
@@ -55,6 +55,9 @@ public:
                 contact_parameters_.add(ContactLaw::combine(a.contact, b.contact, thickness));
                 bond_parameters_.add(BondLaw::combine(a.bond, b.bond, thickness));
             }
+        if (store.size() > 0)
+            for (auto const& row : contact_parameters_.row)
+                require_stated_stiffness<ContactLaw, Dim>(row, double(store.radius(0)));
         Real longest = 0;
         auto bond_entries = make_bonds<BondLaw, bond_entry>(
             store, bonds, [&](std::int32_t i, std::int32_t j) { return parameter_row(store, i, j); }, longest);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include <lacuna/core/dual.hpp>
+#include <lacuna/core/error.hpp>
 #include <lacuna/core/fields.hpp>
 #include <lacuna/laws/pair_motion.hpp>
 #include <lacuna/particles/store.hpp>
@@ -24,8 +25,9 @@ struct contact_assumption {
 
 /// Tangent of a law by its own dual-number derivatives, at the given distance and without slip.
 ///
-/// A contact that is open is read as if it just touched. Coupling between normal and shear enters both, which makes the
-/// diagonal pair an upper bound of the full tangent.
+/// A contact that is open is read as if it just touched. A constant that the law states as its stiffness counts if it is
+/// more: a contact that has yielded is let out stiffer than it is pressed in. Coupling between normal and shear enters
+/// both, which makes the diagonal pair an upper bound of the full tangent.
 /// \param bonded the pair was made at this distance, without force (a bond); else it touches at r_i + r_j
 /// \param least_overlap of a contact, m
 template <class Law, int Dim, class Real>
@@ -45,8 +47,24 @@ pair_stiffness law_stiffness(typename Law::template parameters<Real> const& para
     auto const answer = Law::evaluate(p, motion, state);
     double const coupling =
         std::max(std::fabs(answer.normal_force.derivative[1]), std::fabs(answer.shear_force[0].derivative[0]));
-    return {std::fabs(answer.normal_force.derivative[0]) + coupling,
-            std::fabs(answer.shear_force[0].derivative[1]) + coupling};
+    double normal = std::fabs(answer.normal_force.derivative[0]);
+    if constexpr (requires { Law::stiffness(parameters); }) normal = std::max(normal, double(Law::stiffness(parameters)));
+    return {normal + coupling, std::fabs(answer.shear_force[0].derivative[1]) + coupling};
+}
+
+/// 	hrows std::invalid_argument for a contact law whose tangent at an overlap of a tenth of the radius is above that at
+///         first touch and above the constant that it states: no bound of the time step would follow it
+/// \param radius of the particles that it is tried with, m
+template <class Law, int Dim, class Real>
+void require_stated_stiffness(typename Law::template parameters<Real> const& parameters, double radius) {
+    if constexpr (!stiffens<Law, Dim>) {
+        double const touching = law_stiffness<Law, Dim>(parameters, 2 * radius, radius, radius, false).normal;
+        double const pressed = law_stiffness<Law, Dim>(parameters, 2 * radius, radius, radius, false, 0.1 * radius).normal;
+        if (pressed > 1.01 * touching)
+            refuse("stiffness of the contact law", to_text(pressed) + " N/m at an overlap of a tenth of the radius",
+                   "at most what stiffness(parameters) states, or what it is at first touch (" + to_text(touching) +
+                       " N/m); a law that stiffens has stiffness(parameters, pair_motion, history)");
+    }
 }
 
 /// The smaller radius of a pair, m; at a wall, which has none, the particle's.
