@@ -407,14 +407,14 @@ private:
         // reads its particles again, and `finish` can treat them while they and their forces are in the cache.
         auto const evaluate_spans = [&](auto const& finish) {
             for_each_chunk(spans.count(), parameters_.threads, [&](int s) {
-                int const end = s + 1 < spans.count() ? spans.begin(s + 1) : chunks;
-                for (int c = spans.begin(s); c < end; ++c) {
+                for (int c = spans.begin(s); c < spans.end(s); ++c) {
                     interactions_.template evaluate<WithEnergy>(store_, c, before);
-                    if (c >= spans.frontier_end(s)) finish(c);
+                    if (!spans.waits(c)) finish(c);
                 }
             });
             for_each_chunk(spans.count(), parameters_.threads, [&](int s) {
-                for (int c = spans.begin(s); c < spans.frontier_end(s); ++c) finish(c);
+                for (int c = spans.begin(s); c < spans.end(s); ++c)
+                    if (spans.waits(c)) finish(c);
             });
         };
         bool const changes_step = dt != before;

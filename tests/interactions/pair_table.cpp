@@ -255,7 +255,8 @@ TEST_CASE("force_places: packs to spare change no place", "[interactions][pair_t
     for (bool const streaming : {false, true})
         for (int const threads : {1, 3}) {
             CAPTURE(streaming, threads);
-            lacuna::chunk_spans const spans(roomy.chunks(), threads, 2);
+            lacuna::chunk_spans spans;
+            spans.build(roomy.chunks(), threads, std::size_t(count), roomy);
             REQUIRE(spans.count() == threads);
             lacuna::force_places a, b;
             a.build(roomy, std::size_t(count), spans, streaming);
@@ -267,15 +268,51 @@ TEST_CASE("force_places: packs to spare change no place", "[interactions][pair_t
                 for (std::size_t k = 0; k < tight.end_pack(c) - tight.first_pack(c); ++k)
                     REQUIRE(a(c, roomy.first_pack(c) + k) == b(c, tight.first_pack(c) + k));
             }
-            if (!streaming || threads > 1) continue;
-            // A place is not used again before the last chunk that needs its force has been evaluated.
-            std::vector<int> needed(a.count(), -1);
-            for (int c = 0; c < roomy.chunks(); ++c)
-                for (std::size_t p = roomy.first_pack(c); p < roomy.end_pack(c); ++p) {
-                    int& last = needed[a(c, p)];
-                    REQUIRE(last < c);
-                    for (std::size_t s = p * width; s < (p + 1) * width; ++s)
-                        if (!roomy.is_filler(s, std::size_t(count))) last = std::max(last, roomy.j(s) / 128);
+        }
+}
+
+TEST_CASE("force_places: a force stays until it is summed up, whatever pairs reach", "[interactions][pair_table]") {
+    int const count = 128 * 60;
+    auto const store = discs(count);
+    std::mt19937 gen(11);
+    std::set<pair> near;
+    while (near.size() < 9000) {
+        int const i = int(gen() % std::uint32_t(count - 200));
+        near.insert({i, i + 1 + int(gen() % 199)});
+    }
+    auto const make = [](lacuna::neighbor_pair const& p) { return contact(p.i, p.j, 0); };
+    for (bool const far : {false, true})
+        for (int const threads : {1, 2, 3}) {
+            CAPTURE(far, threads);
+            auto pairs = near;
+            if (far) pairs.insert({{0, count - 1}, {300, 4000}, {3000, 5000}});
+            contacts_2d table;
+            merge_contacts(candidates(pairs), bonds_2d(), {}, table, store, 1, make);
+            lacuna::chunk_spans spans;
+            spans.build(table.chunks(), threads, std::size_t(count), table);
+            REQUIRE(spans.count() == threads);
+            lacuna::force_places places;
+            places.build(table, std::size_t(count), spans, true);
+            // A long bond takes place for the chunks that it concerns, not for all.
+            REQUIRE(places.count() < (far ? 2 * table.packs() / 3 : table.packs() / 2));
+            int waiting = 0;
+            for (int c = 0; c < table.chunks(); ++c) waiting += spans.waits(c);
+            REQUIRE(waiting <= 3 * (threads - 1) + 3 * far);
+            std::vector<std::ptrdiff_t> holds(places.count(), -1); // the pack whose force is there
+            auto const sum_up = [&](int chunk) {
+                for (int c = 0; c <= chunk; ++c)
+                    for (std::size_t p = table.first_pack(c); p < table.end_pack(c); ++p)
+                        for (std::size_t s = p * width; s < (p + 1) * width; ++s)
+                            if (!table.is_filler(s, std::size_t(count)) && (c == chunk || table.j(s) / 128 == chunk))
+                                REQUIRE(holds[places(c, p)] == std::ptrdiff_t(p));
+            };
+            // In whatever order spans run: the last one first.
+            for (int s = threads; s-- > 0;)
+                for (int c = spans.begin(s); c < spans.end(s); ++c) {
+                    for (std::size_t p = table.first_pack(c); p < table.end_pack(c); ++p) holds[places(c, p)] = std::ptrdiff_t(p);
+                    if (!spans.waits(c)) sum_up(c);
                 }
+            for (int c = 0; c < table.chunks(); ++c)
+                if (spans.waits(c)) sum_up(c);
         }
 }

@@ -21,7 +21,7 @@ public:
 
     /// Says how long forces are kept. Takes effect with the next build().
     /// \param streaming nobody reads the force of a single pair: forces are kept no longer than it takes to sum them up,
-    ///        chunk by chunk as they are evaluated, but for the frontiers of spans()
+    ///        chunk by chunk as they are evaluated, but for those that wait, see chunk_spans
     /// \param threads how many spans to make of the chunks, where there are enough of them; if not, it is one, and
     ///        forces are kept
     /// \return whether that is new
@@ -43,8 +43,7 @@ public:
     template <class Bonds, class Contacts>
     void build(std::size_t particles, Bonds const& bonds, Contacts const& contacts) {
         int const chunks = int((particles + chunk_particles - 1) / chunk_particles);
-        int const reach = threads_ > 1 ? std::max(reach_of(bonds, particles), reach_of(contacts, particles)) : 0;
-        spans_ = chunk_spans(chunks, threads_, reach);
+        spans_.build(chunks, threads_, particles, bonds, contacts);
         again_ = streaming_ && spans_.count() == threads_;
         places_[0].build(bonds, particles, spans_, again_);
         places_[1].build(contacts, particles, spans_, again_);
@@ -191,15 +190,6 @@ private:
     template <int Which>
     std::size_t place_of(int chunk, std::size_t slot) const noexcept {
         return (offset<Which>() + places_[Which](chunk, slot / width)) * width + slot % width;
-    }
-    /// Largest distance, in chunks, from a pair's first particle to its second.
-    template <class Table>
-    static int reach_of(Table const& table, std::size_t particles) noexcept {
-        int most = 0;
-        for (std::size_t s = 0; s < table.slots(); ++s)
-            if (!table.is_filler(s, particles))
-                most = std::max(most, table.j(s) / chunk_particles - table.i(s) / chunk_particles);
-        return most;
     }
 
     pair_forces<Real, Dim> forces_;
