@@ -15,7 +15,7 @@ double noise(std::size_t k, int salt) { return std::sin(12.9898 * double(k) + 78
 
 /// A square sheet, of 24 x 24 discs if nothing else is asked for, of mixed radii, half of its pairs bonded, that is torn, sheared and thrown at a wall.
 template <class Real>
-lacuna::packing<Real, 2> sheet(int side = 24) {
+lacuna::packing<Real, 2> sheet(int side = 24, bool tethers = false) {
     lacuna::packing<Real, 2> p;
     for (int r = 0; r < side; ++r)
         for (int c = 0; c < side; ++c) {
@@ -24,6 +24,7 @@ lacuna::packing<Real, 2> sheet(int side = 24) {
             if (c > 0 && noise(k, 4) > 0) p.bonds.push_back({std::int32_t(k) - 1, std::int32_t(k)});
             if (r > 0 && noise(k, 5) > 0) p.bonds.push_back({std::int32_t(k) - side, std::int32_t(k)});
         }
+    if (tethers) p.bonds.insert(p.bonds.end(), {{0, side * side - 1}, {side / 2, side * (side - 1)}});
     return p;
 }
 
@@ -43,6 +44,7 @@ outcome play(lacuna::packing<typename Model::real, 2> const& packing, int thread
     p.threads = threads;
     p.keep_pair_forces = keep_forces;
     p.interactions.initial_contact_tolerance = 0.02;
+    p.allow_unstable_step = true; // the lever arms of tethers
     if (wall) p.walls = {{{0, -0.6}, {0, 1}, p.materials[0].contact}};
     lacuna::simulation<Model> run(packing, p);
     for (std::size_t k = 0; k < run.size(); ++k) {
@@ -101,10 +103,10 @@ TEST_CASE("the same bits whether pair forces are kept or not", "[determinism]") 
     // is cut into a span for each of two threads, with a frontier between.
     auto const itself = [](std::size_t k) { return k; };
     auto const [side, threads] = GENERATE(table<int, int>({{24, 1}, {80, 1}, {80, 2}}));
-    bool const wall = GENERATE(false, true);
-    CAPTURE(side, threads, wall);
-    auto const kept = play<plane>(sheet<double>(side), 1, wall, itself, true);
-    auto const forgotten = play<plane>(sheet<double>(side), threads, wall, itself, false);
+    bool const wall = GENERATE(false, true), tethers = GENERATE(false, true);
+    CAPTURE(side, threads, wall, tethers);
+    auto const kept = play<plane>(sheet<double>(side, tethers), 1, wall, itself, true);
+    auto const forgotten = play<plane>(sheet<double>(side, tethers), threads, wall, itself, false);
     REQUIRE(kept.events.size() > 20);
     REQUIRE(!kept.streams);
     REQUIRE(forgotten.streams);
