@@ -25,9 +25,10 @@ struct file_mark {
 };
 
 /// A text file that grows by whole lines while a run goes on, and is cut back to a mark when the run is resumed. At every
-/// moment it holds a head, whole lines and a foot. Lines wait in memory until some thousands of bytes or a second have come
-/// together; flush() writes them at once. The file is not kept open, so that the object can be copied with what observes a
-/// run; one of the copies goes on.
+/// moment it holds a head, whole lines and a foot; but a program that is killed within a write leaves what the system has
+/// written of it, up to the end of some page: then the last line has no end, and resume() takes it away. Lines wait in memory
+/// until some thousands of bytes or a second have come together; flush() writes them at once. The file is not kept open, so
+/// that the object can be copied with what observes a run; one of the copies goes on.
 class growing_file {
 public:
     growing_file() = default;
@@ -147,7 +148,7 @@ private:
         if (!has_begun() || (pending_.empty() && (!to_disk || on_disk_))) return;
         std::FILE* file = std::fopen(path_.c_str(), "r+b");
         if (file == nullptr) detail::fail_file("cannot write", path_);
-        // In one piece, over the foot that is there: a program that is killed leaves a whole file.
+        // In one piece, over the foot that is there: a kill between two would leave a file without its foot.
         std::string const piece = pending_ + foot_;
         std::setvbuf(file, nullptr, _IONBF, 0);
         bool sound = std::fseek(file, long(mark_.bytes), SEEK_SET) == 0;
