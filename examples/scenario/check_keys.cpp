@@ -24,9 +24,11 @@ public:
 
     void table(toml::table const& t, std::string const& path, std::string const& rows) const {
         auto const& known = below_.at(rows);
-        for (auto const& [name, node] : t)
-            if (std::none_of(known.begin(), known.end(), [&](auto const& one) { return one.first == name.str(); }))
-                refuse_unknown({&node, path_of(path, name.str())}, std::string(name.str()), known);
+        for (auto const& [name, node] : t) {
+            std::string const text(name.str());
+            if (std::none_of(known.begin(), known.end(), [&](auto const& one) { return one.first == text; }))
+                refuse_unknown({&node, path_of(path, text)}, text, known);
+        }
         if (auto const* node = path.empty() ? t.get("simulation") : nullptr) entry(*find_key("simulation"), {node, "simulation"});
         // First what does not belong here at all, then what it is.
         for (bool const meaning : {true, false})
