@@ -120,7 +120,8 @@ concept pair_law_common =
 ///     `initial<T, Dim>(distance, touching_distance)` is its state at zero force; while a member `touching_distance` is
 ///     larger than the sum of the radii the pair stays in the table, else up to that sum and a skin;
 ///   - `evaluate(parameters<T>, pair_motion<T, Dim>, history<T, Dim>) -> pair_response`: the formula;
-///   - `stiffness(parameters)` or `stiffness(parameters, pair_motion, history)`: see dashpot_stiffness().
+///   - `stiffness(parameters)`, the most that the tangent of the normal force becomes, or, of a law whose tangent grows with
+///     the overlap, `stiffness(parameters, pair_motion, history)`: see dashpot_stiffness() and require_stated_stiffness().
 template <class Law, int Dim>
 concept contact_law = detail::pair_law_common<Law, Dim> && requires(
     typename Law::template parameters<double> const& parameters, pair_motion<double, Dim> const& motion,
