@@ -114,7 +114,7 @@ elseif(CASE STREQUAL "stopped")
   find_program(sh sh)
   foreach(case IN ITEMS terzaghi mandel cryer darcy)
     execute_process(COMMAND "${sh}" -c "'${PROGRAM}' --case ${case} --out out & \
-while ! test -e out/lacuna-${case}.lock; do sleep 0.01; done; '${PROGRAM}' --case ${case} --out out; echo second $?; \
+while ! test -s out/lacuna-${case}.lock; do sleep 0.01; done; '${PROGRAM}' --case ${case} --out out; echo second $?; \
 kill -TERM $!; wait $!; echo first $?"
       WORKING_DIRECTORY "${SCRATCH}" OUTPUT_VARIABLE out ERROR_VARIABLE err)
     if(NOT out MATCHES "second 2\n" OR NOT out MATCHES "first 143\n" OR NOT err MATCHES "in use by process")

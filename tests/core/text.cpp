@@ -95,7 +95,7 @@ TEST_CASE("a word that is no number is refused with what is wrong with it", "[te
     REQUIRE(why(std::string(1000, 'x')).size() < 120);
 }
 
-TEST_CASE("lines end with LF, CR LF or CR; a byte order mark is no part of a text, NUL bytes and UTF-16 are refused", "[text]") {
+TEST_CASE("lines end with LF, CR LF or CR, a byte order mark is no part of a text, NUL bytes and UTF-16 are refused", "[text]") {
     std::vector<std::string> lines;
     std::string_view text = "a\nb\r\nc\r\r\nd", line;
     while (take_line(text, line)) lines.emplace_back(line);

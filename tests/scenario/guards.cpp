@@ -70,7 +70,7 @@ TEST_CASE("a crushed bond is named, with its limit", "[guards][program]") {
     CHECK_THAT(ran.err, contains_text("bond 0 between them is crushed") && contains_text("10000 N"));
 }
 
-TEST_CASE("a row that buckles runs; a step that is too long does not", "[guards][program]") {
+TEST_CASE("a row that buckles runs, with a step that is too long it does not", "[guards][program]") {
     std::string const row = "position = [[0.0, 0.0], [0.9, 1e-8], [1.8, -1e-8], [2.7, 1e-8], [3.6, 0.0]]\n"
                             "fix = [{ particles = [0, 4], axes = \"xyr\" }]\n[[probes]]\nquantity = \"position.y\"\nparticle = 2\n";
     folder const here("buckling");
