@@ -39,8 +39,8 @@ int main() {
 }
 END
 cat >"$scratch/fluid.cpp" <<'END'
-#include <lacuna/pores/explicit_flow.hpp>
-#include <lacuna/pores/triangulation.hpp>
+#include <lacuna/pores/flow/explicit_flow.hpp>
+#include <lacuna/pores/mesh/triangulation.hpp>
 #include <lacuna/simulation.hpp>
 struct coupled : lacuna::default_model<2> {
     using flow = lacuna::explicit_flow;

@@ -20,8 +20,8 @@
 #include <random>
 #include <vector>
 
-#include <lacuna/pores/explicit_flow.hpp>
-#include <lacuna/pores/triangulation.hpp>
+#include <lacuna/pores/flow/explicit_flow.hpp>
+#include <lacuna/pores/mesh/triangulation.hpp>
 
 namespace {
 

@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include <lacuna/particles/cartilage_specimen.hpp>
-#include <lacuna/particles/random_packing.hpp>
+#include "cartilage/specimen/cartilage_specimen.hpp"
+#include <lacuna/packings/random_packing.hpp>
 
 #include "machine.hpp"
 #include "options.hpp"

@@ -9,9 +9,9 @@
 #include <random>
 #include <string>
 
-#include <lacuna/pores/explicit_flow.hpp>
-#include <lacuna/pores/pore_network.hpp>
-#include <lacuna/pores/triangulation.hpp>
+#include <lacuna/pores/flow/explicit_flow.hpp>
+#include <lacuna/pores/network/pore_network.hpp>
+#include <lacuna/pores/mesh/triangulation.hpp>
 #include <lacuna/simulation.hpp>
 
 #include "block.hpp"

@@ -21,7 +21,7 @@ function(lacuna_components_of out file)
     get_filename_component(folder "${file}" DIRECTORY)
     set(inner "")
     foreach(candidate IN ITEMS "${lacuna_SOURCE_DIR}/include/${name}" "${folder}/${name}"
-        "${lacuna_SOURCE_DIR}/tests/${name}")
+        "${lacuna_SOURCE_DIR}/tests/${name}" "${lacuna_SOURCE_DIR}/examples/${name}")
       if(EXISTS "${candidate}")
         get_filename_component(candidate "${candidate}" REALPATH)
         lacuna_components_of(inner "${candidate}")

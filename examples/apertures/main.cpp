@@ -12,10 +12,10 @@
 
 #include <lacuna/core/text.hpp>
 #include <lacuna/laws/aperture.hpp>
-#include <lacuna/observe/canvas_file.hpp>
+#include <lacuna/core/whole_file.hpp>
 #include <lacuna/particles/packing.hpp>
-#include <lacuna/pores/explicit_flow.hpp>
-#include <lacuna/pores/triangulation.hpp>
+#include <lacuna/pores/flow/explicit_flow.hpp>
+#include <lacuna/pores/mesh/triangulation.hpp>
 #include <lacuna/simulation.hpp>
 
 #include "picture.hpp"

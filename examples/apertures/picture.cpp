@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "picture.hpp"
 
-#include <lacuna/observe/canvas.hpp>
-#include <lacuna/observe/canvas_furniture.hpp>
-#include <lacuna/observe/plot.hpp>
+#include <lacuna/draw/canvas.hpp>
+#include <lacuna/draw/canvas_furniture.hpp>
+#include <lacuna/draw/plot.hpp>
 
 using namespace lacuna;
 

@@ -6,7 +6,7 @@
 
 #include <lacuna/core/vec.hpp>
 #include <lacuna/interactions/break_event.hpp>
-#include <lacuna/observe/picture_scene.hpp>
+#include <lacuna/draw/picture_scene.hpp>
 
 #include "options.hpp"
 #include "report.hpp"

@@ -9,7 +9,7 @@
 #include <system_error>
 
 #include <lacuna/core/error.hpp>
-#include <lacuna/observe/canvas_file.hpp>
+#include <lacuna/core/whole_file.hpp>
 #include <lacuna/observe/checkpoint_file.hpp>
 #include <lacuna/observe/directory_lock.hpp>
 

@@ -5,8 +5,8 @@
 #include <type_traits>
 
 #include <lacuna/laws/brittle_beam_bond.hpp>
-#include <lacuna/pores/explicit_flow.hpp>
-#include <lacuna/pores/implicit_flow.hpp>
+#include <lacuna/pores/flow/explicit_flow.hpp>
+#include <lacuna/pores/flow/implicit_flow.hpp>
 #include <lacuna/simulation.hpp>
 
 #include "options.hpp"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include <lacuna/loads/surface_traction.hpp>
-#include <lacuna/pores/triangulation.hpp>
+#include <lacuna/pores/mesh/triangulation.hpp>
 
 #include "cartilage_model.hpp"
 #include "collagen_strength.hpp"

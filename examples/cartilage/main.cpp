@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include <lacuna/core/error.hpp>
-#include <lacuna/observe/picture.hpp>
+#include <lacuna/draw/picture.hpp>
 #include <lacuna/observe/stop_signal.hpp>
 
 #include "calibrate.hpp"

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-#include <lacuna/particles/cartilage_specimen_types.hpp>
+#include "specimen/specimen_types.hpp"
 
 #include "choices.hpp"
 

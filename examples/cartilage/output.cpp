@@ -7,7 +7,7 @@
 #include <system_error>
 
 #include <lacuna/core/text.hpp>
-#include <lacuna/observe/canvas_file.hpp>
+#include <lacuna/core/whole_file.hpp>
 #include <lacuna/observe/progress.hpp>
 #include <lacuna/observe/stop_signal.hpp>
 

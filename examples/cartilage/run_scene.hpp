@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include <lacuna/observe/picture_scene.hpp>
-#include <lacuna/pores/pore_network.hpp>
+#include <lacuna/draw/picture_scene.hpp>
+#include <lacuna/pores/network/pore_network.hpp>
 
 #include "aftermath.hpp"
 

@@ -10,7 +10,7 @@
 #include <CLI/CLI.hpp>
 
 #include <lacuna/core/error.hpp>
-#include <lacuna/observe/canvas_file.hpp>
+#include <lacuna/core/whole_file.hpp>
 #include <lacuna/observe/stop_signal.hpp>
 
 #include "output.hpp"

@@ -5,12 +5,12 @@
 #include <cmath>
 
 #include <lacuna/core/error.hpp>
-#include <lacuna/observe/canvas_file.hpp>
-#include <lacuna/observe/plot_tornado.hpp>
+#include <lacuna/core/whole_file.hpp>
 
 #include "html.hpp"
 #include "page.hpp"
 #include "study_figures.hpp"
+#include "tornado.hpp"
 
 namespace cartilage {
 

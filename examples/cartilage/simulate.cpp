@@ -9,7 +9,7 @@
 #include <vector>
 
 #include <lacuna/observe/growing_file.hpp>
-#include <lacuna/observe/picture.hpp>
+#include <lacuna/draw/picture.hpp>
 #include <lacuna/observe/progress.hpp>
 #include <lacuna/observe/stop_signal.hpp>
 

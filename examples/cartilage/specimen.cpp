@@ -3,7 +3,7 @@
 
 #include <cstdio>
 
-#include <lacuna/particles/cartilage_specimen.hpp>
+#include "specimen/cartilage_specimen.hpp"
 
 namespace cartilage {
 

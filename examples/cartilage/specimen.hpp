@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <lacuna/observe/picture_scene.hpp>
-#include <lacuna/particles/cartilage_specimen_types.hpp>
+#include <lacuna/draw/picture_scene.hpp>
+#include "specimen/specimen_types.hpp"
 
 #include "options.hpp"
 #include "report.hpp"

@@ -11,7 +11,7 @@
 #include <system_error>
 #include <utility>
 
-#include <lacuna/observe/canvas_file.hpp>
+#include <lacuna/core/whole_file.hpp>
 #include <lacuna/observe/progress.hpp>
 #include <lacuna/observe/stop_signal.hpp>
 

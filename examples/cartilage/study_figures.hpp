@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include <lacuna/observe/plot.hpp>
+#include <lacuna/draw/plot.hpp>
 
 #include "study_result.hpp"
 #include "study_table.hpp"

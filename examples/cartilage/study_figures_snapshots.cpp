@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <utility>
 
-#include <lacuna/observe/picture.hpp>
+#include <lacuna/draw/picture.hpp>
 
 #include "study_figures.hpp"
 #include "study_fronts.hpp"

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include <lacuna/core/error.hpp>
-#include <lacuna/observe/canvas_file.hpp>
+#include <lacuna/core/whole_file.hpp>
 
 #include "study_figures.hpp"
 #include "study_page.hpp"

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include <lacuna/observe/picture_scene.hpp>
-#include <lacuna/particles/cartilage_specimen_types.hpp>
+#include <lacuna/draw/picture_scene.hpp>
+#include "specimen/specimen_types.hpp"
 
 /// \file
 /// What a study found, as plain data: between the runs and the report. Loads in MPa, all else in SI units.

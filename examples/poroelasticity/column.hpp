@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <vector>
 
-#include <lacuna/pores/flow_boundaries.hpp>
-#include <lacuna/pores/triangulation.hpp>
+#include <lacuna/pores/network/flow_boundaries.hpp>
+#include <lacuna/pores/mesh/triangulation.hpp>
 
 #include "porous_model.hpp"
 

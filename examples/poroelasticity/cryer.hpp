@@ -7,8 +7,8 @@
 #include <optional>
 #include <vector>
 
-#include <lacuna/pores/flow_boundaries.hpp>
-#include <lacuna/pores/triangulation.hpp>
+#include <lacuna/pores/network/flow_boundaries.hpp>
+#include <lacuna/pores/mesh/triangulation.hpp>
 
 #include "closed_forms.hpp"
 #include "porous_model.hpp"

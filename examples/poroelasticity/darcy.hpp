@@ -9,10 +9,10 @@
 #include <vector>
 
 #include <lacuna/core/eigen_sparse.hpp>
-#include <lacuna/particles/random_packing.hpp>
-#include <lacuna/pores/flow_boundaries.hpp>
-#include <lacuna/pores/implicit_flow.hpp>
-#include <lacuna/pores/triangulation.hpp>
+#include <lacuna/packings/random_packing.hpp>
+#include <lacuna/pores/network/flow_boundaries.hpp>
+#include <lacuna/pores/flow/implicit_flow.hpp>
+#include <lacuna/pores/mesh/triangulation.hpp>
 
 #include "column.hpp"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include <lacuna/core/error.hpp>
-#include <lacuna/observe/canvas_file.hpp>
+#include <lacuna/core/whole_file.hpp>
 
 #include "picture.hpp"
 

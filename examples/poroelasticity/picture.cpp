@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <vector>
 
-#include <lacuna/observe/canvas.hpp>
-#include <lacuna/observe/canvas_furniture.hpp>
-#include <lacuna/observe/plot.hpp>
+#include <lacuna/draw/canvas.hpp>
+#include <lacuna/draw/canvas_furniture.hpp>
+#include <lacuna/draw/plot.hpp>
 
 namespace poroelasticity {
 

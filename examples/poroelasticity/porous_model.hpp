@@ -7,7 +7,7 @@
 #include <vector>
 
 #include <lacuna/laws/no_contact.hpp>
-#include <lacuna/pores/explicit_flow.hpp>
+#include <lacuna/pores/flow/explicit_flow.hpp>
 #include <lacuna/simulation.hpp>
 
 #include "medium.hpp"

@@ -10,9 +10,9 @@
 #include <variant>
 
 #include <lacuna/laws/aperture.hpp>
-#include <lacuna/pores/explicit_flow.hpp>
-#include <lacuna/pores/flow.hpp>
-#include <lacuna/pores/implicit_flow.hpp>
+#include <lacuna/pores/flow/explicit_flow.hpp>
+#include <lacuna/pores/flow/flow.hpp>
+#include <lacuna/pores/flow/implicit_flow.hpp>
 
 namespace lacuna_run {
 

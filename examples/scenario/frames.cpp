@@ -12,7 +12,7 @@
 #include <lacuna/observe/vtk_zlib.hpp>
 #endif
 #ifdef LACUNA_HAS_PICTURES
-#include <lacuna/observe/picture.hpp>
+#include <lacuna/draw/picture.hpp>
 #endif
 
 namespace lacuna_run {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include <lacuna/observe/stop_signal.hpp>
-#include <lacuna/pores/flow_time_step.hpp>
+#include <lacuna/pores/flow/flow_time_step.hpp>
 
 #include "checkpoints.hpp"
 #include "frames.hpp"

@@ -3,7 +3,7 @@
 
 #include <stdexcept>
 
-#include <lacuna/particles/particle_csv.hpp>
+#include <lacuna/packings/particle_csv.hpp>
 
 namespace lacuna_run {
 

@@ -5,9 +5,9 @@
 #include <string>
 
 #include <lacuna/core/points.hpp>
-#include <lacuna/pores/flow_boundaries.hpp>
-#include <lacuna/pores/pore_network.hpp>
-#include <lacuna/pores/triangulation.hpp>
+#include <lacuna/pores/network/flow_boundaries.hpp>
+#include <lacuna/pores/network/pore_network.hpp>
+#include <lacuna/pores/mesh/triangulation.hpp>
 
 #include "frames.hpp"
 #include "scenario.hpp"

@@ -7,7 +7,7 @@
 
 #include <cstdio>
 
-#include <lacuna/particles/hexagonal.hpp>
+#include <lacuna/packings/hexagonal.hpp>
 #include <lacuna/simulation.hpp>
 
 #include "check.hpp"

@@ -10,7 +10,7 @@
 #include <cstdio>
 #include <numbers>
 
-#include <lacuna/particles/hexagonal.hpp>
+#include <lacuna/packings/hexagonal.hpp>
 #include <lacuna/simulation.hpp>
 
 #include "check.hpp"

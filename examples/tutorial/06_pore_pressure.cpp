@@ -9,8 +9,8 @@
 #include <cstdio>
 #include <numbers>
 
-#include <lacuna/pores/explicit_flow.hpp>
-#include <lacuna/pores/triangulation.hpp>
+#include <lacuna/pores/flow/explicit_flow.hpp>
+#include <lacuna/pores/mesh/triangulation.hpp>
 #include <lacuna/simulation.hpp>
 
 #include "check.hpp"

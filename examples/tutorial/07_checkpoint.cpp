@@ -9,7 +9,7 @@
 #include <cstdio>
 
 #include <lacuna/observe/crack_record.hpp>
-#include <lacuna/particles/hexagonal.hpp>
+#include <lacuna/packings/hexagonal.hpp>
 #include <lacuna/simulation/checkpoint.hpp>
 
 #include "check.hpp"

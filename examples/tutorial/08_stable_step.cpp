@@ -9,7 +9,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include <lacuna/particles/hexagonal.hpp>
+#include <lacuna/packings/hexagonal.hpp>
 #include <lacuna/simulation.hpp>
 
 #include "check.hpp"

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include <lacuna/core/error.hpp>
-#include <lacuna/observe/canvas_file.hpp>
+#include <lacuna/core/whole_file.hpp>
 
 namespace uniaxial {
 

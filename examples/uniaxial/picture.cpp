@@ -3,8 +3,8 @@
 #include <cmath>
 #include <string>
 
-#include <lacuna/observe/canvas.hpp>
-#include <lacuna/observe/plot.hpp>
+#include <lacuna/draw/canvas.hpp>
+#include <lacuna/draw/plot.hpp>
 
 #include "output.hpp"
 

@@ -10,8 +10,8 @@
 #include <lacuna/loads/compression.hpp>
 #include <lacuna/observe/crack_record.hpp>
 #include <lacuna/observe/stop_signal.hpp>
-#include <lacuna/particles/hexagonal.hpp>
-#include <lacuna/particles/random_packing.hpp>
+#include <lacuna/packings/hexagonal.hpp>
+#include <lacuna/packings/random_packing.hpp>
 #include <lacuna/simulation.hpp>
 
 namespace uniaxial {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include <lacuna/observe/growing_file.hpp>
-#include <lacuna/observe/picture_scene.hpp>
+#include <lacuna/draw/picture_scene.hpp>
 
 /// \file
 /// Uniaxial compression of a bonded specimen between two platens, as data: what is asked for, and what comes out.

@@ -11,7 +11,7 @@
 #include <lacuna/motion/symplectic_euler.hpp>
 #include <lacuna/neighbors/cell_grid.hpp>
 #include <lacuna/particles/domain.hpp>
-#include <lacuna/pores/flow.hpp>
+#include <lacuna/pores/flow/flow.hpp>
 
 namespace lacuna {
 

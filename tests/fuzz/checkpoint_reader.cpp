@@ -5,8 +5,8 @@
 #include <string_view>
 
 #include <lacuna/observe/crack_record.hpp>
-#include <lacuna/pores/explicit_flow.hpp>
-#include <lacuna/pores/triangulation.hpp>
+#include <lacuna/pores/flow/explicit_flow.hpp>
+#include <lacuna/pores/mesh/triangulation.hpp>
 #include <lacuna/simulation/checkpoint.hpp>
 
 #include "fuzz/corpus.hpp"

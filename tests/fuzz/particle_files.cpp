@@ -9,8 +9,8 @@
 #include <vector>
 
 #include <lacuna/core/text.hpp>
-#include <lacuna/particles/lammps_data.hpp>
-#include <lacuna/particles/particle_csv.hpp>
+#include <lacuna/packings/lammps_data.hpp>
+#include <lacuna/packings/particle_csv.hpp>
 
 #include "fuzz/corpus.hpp"
 

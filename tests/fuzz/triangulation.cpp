@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include <lacuna/pores/pore_network.hpp>
-#include <lacuna/pores/triangulation.hpp>
+#include <lacuna/pores/network/pore_network.hpp>
+#include <lacuna/pores/mesh/triangulation.hpp>
 
 #include "fuzz/corpus.hpp"
 

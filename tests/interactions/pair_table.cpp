@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
-#include <lacuna/interactions/contact_list.hpp>
-#include <lacuna/interactions/force_places.hpp>
-#include <lacuna/interactions/pair_table.hpp>
+#include <lacuna/interactions/storage/contact_list.hpp>
+#include <lacuna/interactions/storage/force_places.hpp>
+#include <lacuna/interactions/storage/pair_table.hpp>
 #include <lacuna/laws/brittle_spring_bond.hpp>
 #include <lacuna/laws/frictional_spring.hpp>
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include <lacuna/interactions/read_ahead.hpp>
+#include <lacuna/interactions/storage/read_ahead.hpp>
 
 #include "catch.hpp"
 

@@ -10,7 +10,7 @@
 #include <lacuna/observe/vtk_collection.hpp>
 
 #include "catch.hpp"
-#include "observe/picture_files.hpp"
+#include "scratch_directory.hpp"
 
 TEST_CASE("a growing file is cut back to a mark and goes on", "[growing]") {
     scratch_directory const dir;

@@ -12,7 +12,7 @@
 #include <lacuna/core/text.hpp>
 #include <lacuna/core/vec.hpp>
 #include <lacuna/observe/lammps_dump.hpp>
-#include <lacuna/observe/plot_axis.hpp>
+#include <lacuna/draw/plot_axis.hpp>
 #include <lacuna/observe/progress.hpp>
 #include <lacuna/observe/vtk_collection.hpp>
 #include <lacuna/observe/vtk.hpp>

@@ -13,7 +13,7 @@
 #include <lacuna/observe/stop_signal.hpp>
 
 #include "catch.hpp"
-#include "observe/picture_files.hpp"
+#include "scratch_directory.hpp"
 
 namespace {
 

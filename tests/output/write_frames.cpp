@@ -12,9 +12,9 @@
 #include <lacuna/observe/lammps_dump.hpp>
 #include <lacuna/observe/vtk_series.hpp>
 #include <lacuna/observe/vtk_zlib.hpp>
-#include <lacuna/particles/hexagonal.hpp>
-#include <lacuna/pores/explicit_flow.hpp>
-#include <lacuna/pores/triangulation.hpp>
+#include <lacuna/packings/hexagonal.hpp>
+#include <lacuna/pores/flow/explicit_flow.hpp>
+#include <lacuna/pores/mesh/triangulation.hpp>
 #include <lacuna/simulation.hpp>
 
 namespace {

@@ -4,7 +4,7 @@
 
 #include <lacuna/core/vec.hpp>
 #include <lacuna/core/version.hpp>
-#include <lacuna/particles/hexagonal.hpp>
+#include <lacuna/packings/hexagonal.hpp>
 #include <lacuna/simulation.hpp>
 
 // Every header that the consumer sees, so that one missing from the installed set is missed here.

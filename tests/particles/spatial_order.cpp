@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include <lacuna/particles/packing_random.hpp>
+#include <lacuna/packings/random_numbers.hpp>
 #include <lacuna/particles/spatial_order.hpp>
 
 using lacuna::vec;

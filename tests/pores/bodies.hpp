@@ -10,8 +10,8 @@
 #include <vector>
 
 #include <lacuna/core/records.hpp>
-#include <lacuna/pores/pore_network.hpp>
-#include <lacuna/pores/triangulation.hpp>
+#include <lacuna/pores/network/pore_network.hpp>
+#include <lacuna/pores/mesh/triangulation.hpp>
 
 /// \file
 /// Bodies of discs whose pores the tests of flow solvers fill.

@@ -11,8 +11,8 @@
 #include <set>
 #include <vector>
 
-#include <lacuna/pores/explicit_flow.hpp>
-#include <lacuna/pores/triangulation.hpp>
+#include <lacuna/pores/flow/explicit_flow.hpp>
+#include <lacuna/pores/mesh/triangulation.hpp>
 
 using namespace lacuna;
 using point = vec<double, 2>;

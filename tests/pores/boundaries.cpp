@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include <lacuna/pores/explicit_flow.hpp>
-#include <lacuna/pores/flow_boundaries.hpp>
-#include <lacuna/pores/implicit_flow.hpp>
+#include <lacuna/pores/flow/explicit_flow.hpp>
+#include <lacuna/pores/network/flow_boundaries.hpp>
+#include <lacuna/pores/flow/implicit_flow.hpp>
 
 using namespace lacuna;
 using bodies::body;

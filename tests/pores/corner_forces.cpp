@@ -11,9 +11,9 @@
 #include <utility>
 #include <vector>
 
-#include <lacuna/pores/corner_forces.hpp>
-#include <lacuna/pores/explicit_flow.hpp>
-#include <lacuna/pores/pore_throats.hpp>
+#include <lacuna/pores/flow/corner_forces.hpp>
+#include <lacuna/pores/flow/explicit_flow.hpp>
+#include <lacuna/pores/network/pore_throats.hpp>
 
 #include "bodies.hpp"
 

@@ -9,7 +9,7 @@
 #include <random>
 #include <vector>
 
-#include <lacuna/pores/explicit_flow.hpp>
+#include <lacuna/pores/flow/explicit_flow.hpp>
 
 using namespace lacuna;
 

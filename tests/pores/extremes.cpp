@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include <lacuna/pores/no_pores.hpp>
-#include <lacuna/pores/pore_network.hpp>
-#include <lacuna/pores/triangulation.hpp>
+#include <lacuna/pores/mesh/no_pores.hpp>
+#include <lacuna/pores/network/pore_network.hpp>
+#include <lacuna/pores/mesh/triangulation.hpp>
 
 using namespace lacuna;
 

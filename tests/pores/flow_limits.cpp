@@ -12,7 +12,7 @@
 
 #include <Eigen/Eigenvalues>
 
-#include <lacuna/pores/explicit_flow.hpp>
+#include <lacuna/pores/flow/explicit_flow.hpp>
 
 using namespace lacuna;
 using bodies::body;

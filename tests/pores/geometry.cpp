@@ -8,7 +8,7 @@
 
 #include <lacuna/core/dual.hpp>
 #include <lacuna/core/pack.hpp>
-#include <lacuna/pores/geometry.hpp>
+#include <lacuna/pores/mesh/geometry.hpp>
 
 using namespace lacuna;
 using point = vec<double, 2>;

@@ -9,9 +9,9 @@
 #include <random>
 #include <vector>
 
-#include <lacuna/pores/explicit_flow.hpp>
-#include <lacuna/pores/implicit_flow.hpp>
-#include <lacuna/pores/triangulation.hpp>
+#include <lacuna/pores/flow/explicit_flow.hpp>
+#include <lacuna/pores/flow/implicit_flow.hpp>
+#include <lacuna/pores/mesh/triangulation.hpp>
 
 using namespace lacuna;
 using point = vec<double, 2>;

@@ -10,11 +10,11 @@
 
 #include "bodies.hpp"
 
-#include <lacuna/pores/carry_fluid.hpp>
-#include <lacuna/pores/explicit_flow.hpp>
-#include <lacuna/pores/implicit_flow.hpp>
-#include <lacuna/pores/remesh.hpp>
-#include <lacuna/pores/triangulation.hpp>
+#include <lacuna/pores/remesh/carry_fluid.hpp>
+#include <lacuna/pores/flow/explicit_flow.hpp>
+#include <lacuna/pores/flow/implicit_flow.hpp>
+#include <lacuna/pores/remesh/remesh.hpp>
+#include <lacuna/pores/mesh/triangulation.hpp>
 
 using namespace lacuna;
 using bodies::uniform;

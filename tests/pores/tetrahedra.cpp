@@ -11,7 +11,7 @@
 
 #include <lacuna/core/dual.hpp>
 #include <lacuna/core/pack.hpp>
-#include <lacuna/pores/triangulation.hpp>
+#include <lacuna/pores/mesh/triangulation.hpp>
 
 using namespace lacuna;
 using point = vec<double, 3>;

@@ -10,7 +10,7 @@
 #include <thread>
 #include <vector>
 
-#include <lacuna/pores/triangulation.hpp>
+#include <lacuna/pores/mesh/triangulation.hpp>
 
 using namespace lacuna;
 using point = vec<double, 2>;

@@ -7,10 +7,10 @@
 #include <cstddef>
 
 #include <lacuna/laws/no_contact.hpp>
-#include <lacuna/pores/explicit_flow.hpp>
-#include <lacuna/pores/flow_boundaries.hpp>
-#include <lacuna/pores/implicit_flow.hpp>
-#include <lacuna/pores/triangulation.hpp>
+#include <lacuna/pores/flow/explicit_flow.hpp>
+#include <lacuna/pores/network/flow_boundaries.hpp>
+#include <lacuna/pores/flow/implicit_flow.hpp>
+#include <lacuna/pores/mesh/triangulation.hpp>
 
 /// \file
 /// A fluid with a weight: Archimedes' force on bodies, hydrostatic balance of a wet bed.

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include <lacuna/observe/crack_record.hpp>
-#include <lacuna/particles/cartilage_specimen.hpp>
-#include <lacuna/pores/triangulation.hpp>
+#include "cartilage/specimen/cartilage_specimen.hpp"
+#include <lacuna/pores/mesh/triangulation.hpp>
 #include <lacuna/simulation.hpp>
 
 #include "simulation/specimens.hpp"

@@ -8,8 +8,8 @@
 
 #include <lacuna/observe/crack_record.hpp>
 #include <lacuna/observe/vtk_series.hpp>
-#include <lacuna/particles/hexagonal.hpp>
-#include <lacuna/pores/implicit_flow.hpp>
+#include <lacuna/packings/hexagonal.hpp>
+#include <lacuna/pores/flow/implicit_flow.hpp>
 #include <lacuna/simulation/checkpoint.hpp>
 
 #include "catch.hpp"

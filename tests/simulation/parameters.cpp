@@ -7,12 +7,12 @@
 
 #include <lacuna/core/aggregate.hpp>
 #include <lacuna/laws/aperture.hpp>
-#include <lacuna/observe/picture_scene.hpp>
+#include <lacuna/draw/picture_scene.hpp>
 #include <lacuna/observe/progress.hpp>
-#include <lacuna/particles/cartilage_specimen_types.hpp>
-#include <lacuna/particles/random_packing.hpp>
-#include <lacuna/pores/flow_parameters.hpp>
-#include <lacuna/pores/implicit_flow.hpp>
+#include "cartilage/specimen/specimen_types.hpp"
+#include <lacuna/packings/random_packing.hpp>
+#include <lacuna/pores/flow/flow_parameters.hpp>
+#include <lacuna/pores/flow/implicit_flow.hpp>
 
 #include "catch.hpp"
 #include "simulation/setups.hpp"

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <string>
 
-#include <lacuna/particles/lammps_data.hpp>
+#include <lacuna/packings/lammps_data.hpp>
 #include <lacuna/simulation/checkpoint.hpp>
 
 #include "catch.hpp"

@@ -9,9 +9,9 @@
 #include "catch.hpp"
 #include "simulation/setups.hpp"
 
-#include <lacuna/pores/explicit_flow.hpp>
-#include <lacuna/pores/flow_boundaries.hpp>
-#include <lacuna/pores/triangulation.hpp>
+#include <lacuna/pores/flow/explicit_flow.hpp>
+#include <lacuna/pores/network/flow_boundaries.hpp>
+#include <lacuna/pores/mesh/triangulation.hpp>
 #include <lacuna/simulation/checkpoint.hpp>
 
 using namespace setups;

@@ -11,9 +11,9 @@
 #include <type_traits>
 #include <vector>
 
-#include <lacuna/pores/explicit_flow.hpp>
-#include <lacuna/pores/implicit_flow.hpp>
-#include <lacuna/pores/triangulation.hpp>
+#include <lacuna/pores/flow/explicit_flow.hpp>
+#include <lacuna/pores/flow/implicit_flow.hpp>
+#include <lacuna/pores/mesh/triangulation.hpp>
 #include <lacuna/simulation/checkpoint.hpp>
 
 using namespace lacuna;

@@ -8,9 +8,9 @@
 
 #include <lacuna/core/difference.hpp>
 #include <lacuna/laws/damping.hpp>
-#include <lacuna/pores/explicit_flow.hpp>
-#include <lacuna/pores/implicit_flow.hpp>
-#include <lacuna/pores/triangulation.hpp>
+#include <lacuna/pores/flow/explicit_flow.hpp>
+#include <lacuna/pores/flow/implicit_flow.hpp>
+#include <lacuna/pores/mesh/triangulation.hpp>
 #include <lacuna/simulation/checkpoint.hpp>
 
 #include "catch.hpp"

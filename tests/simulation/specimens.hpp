@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <lacuna/particles/cartilage_specimen.hpp>
+#include "cartilage/specimen/cartilage_specimen.hpp"
 
 #include "../../examples/cartilage/load_specimen.hpp"
 

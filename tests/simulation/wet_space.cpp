@@ -13,10 +13,10 @@
 #include <vector>
 
 #include <lacuna/laws/no_contact.hpp>
-#include <lacuna/pores/explicit_flow.hpp>
-#include <lacuna/pores/flow_boundaries.hpp>
-#include <lacuna/pores/implicit_flow.hpp>
-#include <lacuna/pores/triangulation.hpp>
+#include <lacuna/pores/flow/explicit_flow.hpp>
+#include <lacuna/pores/network/flow_boundaries.hpp>
+#include <lacuna/pores/flow/implicit_flow.hpp>
+#include <lacuna/pores/mesh/triangulation.hpp>
 #include <lacuna/simulation/checkpoint.hpp>
 
 using namespace lacuna;

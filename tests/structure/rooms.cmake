@@ -5,16 +5,26 @@
 cmake_minimum_required(VERSION 3.25)
 
 # Which rooms a room may include; every room may include itself.
-set(ROOMS core particles neighbors laws interactions pores loads motion observe)
+set(ROOMS core particles packings neighbors laws interactions pores loads motion observe draw)
 set(core_MAY "")
 set(particles_MAY core)
-set(neighbors_MAY core particles)
+set(packings_MAY core particles)
+set(neighbors_MAY core)
 set(laws_MAY core)
 set(interactions_MAY core particles neighbors laws)
-set(pores_MAY core particles laws interactions)
+set(pores_MAY core laws)
 set(loads_MAY core particles)
 set(motion_MAY core particles)
 set(observe_MAY core)
+set(draw_MAY core)
+
+# Folders of a room, from the ground up: which folders of the room one of them may include besides itself.
+set(FOLDERS interactions/storage pores/mesh pores/network pores/flow pores/remesh)
+set(interactions/storage_MAY "")
+set(pores/mesh_MAY "")
+set(pores/network_MAY pores/mesh)
+set(pores/flow_MAY pores/mesh pores/network)
+set(pores/remesh_MAY pores/mesh pores/network)
 
 # Third-party headers and the rooms that may include them.
 set(THIRD_PARTY eigen nanoflann qhull cairo cereal zlib intrinsics programs)
@@ -25,7 +35,7 @@ set(nanoflann_ROOMS neighbors)
 set(qhull_HEADERS "^libqhull")
 set(qhull_ROOMS pores)
 set(cairo_HEADERS "^(cairo/)?cairo")
-set(cairo_ROOMS observe)
+set(cairo_ROOMS draw)
 set(cereal_HEADERS "^cereal/")
 set(cereal_ROOMS observe)
 set(zlib_HEADERS "^zlib\\.h$")
@@ -39,38 +49,9 @@ set(FORBIDDEN_STANDARD "^(iostream|ranges|functional|regex)$")
 # What reads and writes numbers as the program's locale says: files are read and written by core/text.hpp. Programs may
 # print tables for persons.
 set(OF_LOCALES "(strto(f|d|ld)|sto(f|d|ld)|atof|setlocale|localeconv|imbue|setprecision)[ ]*\\(|stringstream|[^f]printf\\([^;]*%[-+ #0-9.*]*L?[aefgAEFG]")
-set(MOST_LINES 300)
-set(MOST_DEPTH 7)
 
-# Exceptions: "<header> -> <what it may include>", "<header> lines" or "<header> depth", each with its reason above it.
+# Exceptions: "<header> -> <what it may include>" or "<header> numbers", each with its reason above it.
 set(EXCEPTIONS
-  # core/ alone is a chain of five: fields of records of packs of scalars.
-  "interactions/interactions.hpp depth"
-  "interactions/force_store.hpp depth"
-  # What bonds and contacts do in a step, on one page.
-  "interactions/interactions.hpp lines"
-  # What all flow solvers share.
-  "pores/flow_base.hpp lines"
-  "simulation.hpp depth"
-  # A solver is its base, which is the passes over a network, which is a mesh of the plane's geometry.
-  "pores/explicit_flow.hpp depth"
-  "pores/implicit_flow.hpp depth"
-  # All that a user calls, and the step, on one page.
-  "simulation.hpp lines"
-  # A plane has places, paths, forces and stiffnesses, as all pairs have in four headers.
-  "interactions/walls.hpp lines"
-  # One list and what it is judged by.
-  "neighbors/verlet_list.hpp lines"
-  "simulation/parameters.hpp depth"
-  "simulation/limits.hpp depth"
-  "simulation/step_control.hpp depth"
-  "simulation/fluid_coupling.hpp depth"
-  # All guards, one of which looks at the pores.
-  "simulation/run_guards.hpp depth"
-  # Stands on top of simulation.hpp.
-  "simulation/checkpoint.hpp depth"
-  # A specimen is random packing, which is relaxing, which is sorting into a grid.
-  "particles/cartilage_specimen.hpp depth"
 )
 
 set(problems "")
@@ -113,10 +94,12 @@ foreach(header IN LISTS headers)
   if(text MATCHES "${OF_LOCALES}|fprintf\\([^;]*%[-+ #0-9.*]*L?[aefgAEFG]")
     problem("${header} numbers" "${header}: '${CMAKE_MATCH_0}' goes by the locale, core/text.hpp reads and writes numbers")
   endif()
-  string(REGEX REPLACE "[^\n]" "" newlines "${text}")
-  string(LENGTH "${newlines}" lines)
-  if(lines GREATER MOST_LINES)
-    problem("${header} lines" "${header}: ${lines} lines, the most is ${MOST_LINES}")
+  set(folder "")
+  if(header MATCHES "^([^/]+/[^/]+)/")
+    set(folder "${CMAKE_MATCH_1}")
+    if(NOT folder IN_LIST FOLDERS)
+      list(APPEND problems "${header}: there is no folder ${folder}/")
+    endif()
   endif()
 
   set(inner_${header} "")
@@ -137,6 +120,12 @@ foreach(header IN LISTS headers)
       list(APPEND inner_${header} "${target}")
       if(room AND NOT other STREQUAL room AND NOT other IN_LIST ${room}_MAY)
         problem("${header} -> ${target}" "${header}: ${room}/ may not include ${other}/ (${target})")
+      endif()
+      if(folder AND other STREQUAL room)
+        get_filename_component(beside "${target}" DIRECTORY)
+        if(NOT beside STREQUAL folder AND NOT beside IN_LIST ${folder}_MAY)
+          problem("${header} -> ${target}" "${header}: ${folder}/ may not include ${beside}/ (${target})")
+        endif()
       endif()
       if(NOT other STREQUAL room AND target MATCHES "/detail/")
         problem("${header} -> ${target}" "${header}: reaches into the detail/ of ${other}/ (${target})")
@@ -168,34 +157,27 @@ foreach(program IN LISTS programs)
   endif()
 endforeach()
 
-# Depth by rounds: a header is as deep as the deepest that it includes, plus one; what never settles is a ring.
-# core/standard.hpp is below all.
-set(depth_core/standard.hpp 0)
+# Rounds: a header has settled when all that it includes have; what never settles is a ring.
+set(settled "")
 set(open ${headers})
-list(REMOVE_ITEM open core/standard.hpp)
 while(open)
   set(next "")
+  set(now "")
   foreach(header IN LISTS open)
-    set(depth 0)
+    set(waits FALSE)
     foreach(inner IN LISTS inner_${header})
-      if(DEFINED depth_${inner})
-        if(depth_${inner} GREATER depth)
-          set(depth ${depth_${inner}})
-        endif()
-      elseif(inner IN_LIST headers)
-        set(depth open)
+      if(inner IN_LIST headers AND NOT inner IN_LIST settled)
+        set(waits TRUE)
         break()
       endif()
     endforeach()
-    if(depth STREQUAL "open")
+    if(waits)
       list(APPEND next "${header}")
     else()
-      math(EXPR depth_${header} "${depth} + 1")
-      if(depth_${header} GREATER MOST_DEPTH)
-        problem("${header} depth" "${header}: includes ${depth_${header}} deep, the most is ${MOST_DEPTH}")
-      endif()
+      list(APPEND now "${header}")
     endif()
   endforeach()
+  list(APPEND settled ${now})
   if(next STREQUAL open)
     list(JOIN next ", " ring)
     list(APPEND problems "a ring of includes among or below: ${ring}")

@@ -13,8 +13,8 @@
 #include <lacuna/interactions/bond_failure.hpp>
 #include <lacuna/interactions/bond_list.hpp>
 #include <lacuna/interactions/bond_moments.hpp>
-#include <lacuna/interactions/contact_list.hpp>
-#include <lacuna/interactions/force_store.hpp>
+#include <lacuna/interactions/storage/contact_list.hpp>
+#include <lacuna/interactions/storage/force_store.hpp>
 #include <lacuna/interactions/law_stiffness.hpp>
 #include <lacuna/interactions/interaction_parameters.hpp>
 #include <lacuna/interactions/pair_loop.hpp>

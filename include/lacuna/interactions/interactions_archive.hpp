@@ -8,7 +8,7 @@
 
 #include <lacuna/core/state.hpp>
 #include <lacuna/interactions/bond_list.hpp>
-#include <lacuna/interactions/contact_list.hpp>
+#include <lacuna/interactions/storage/contact_list.hpp>
 
 namespace lacuna {
 

@@ -4,10 +4,11 @@
 #include <vector>
 
 #include <lacuna/core/fetch.hpp>
-#include <lacuna/interactions/force_places.hpp>
+#include <lacuna/interactions/storage/force_places.hpp>
+#include <lacuna/interactions/storage/pair_forces.hpp>
 #include <lacuna/interactions/kinematics.hpp>
-#include <lacuna/interactions/pair_table.hpp>
-#include <lacuna/interactions/read_ahead.hpp>
+#include <lacuna/interactions/storage/pair_table.hpp>
+#include <lacuna/interactions/storage/read_ahead.hpp>
 #include <lacuna/laws/damping.hpp>
 #include <lacuna/particles/store.hpp>
 
@@ -53,16 +54,6 @@ struct pair_energy {
         damped += other.damped;
         in_bonds += other.in_bonds;
     }
-};
-
-/// Forces of pairs, one record (2D: F_x, F_y, torque per radius, normal force) or two (3D: force and normal force;
-/// torque per radius and 0) each.
-template <class Real, int Dim>
-struct pair_forces {
-    static constexpr std::size_t records_per_pair = Dim == 2 ? 1 : 2;
-    record_column<Real> column;
-    Real* of(std::size_t slot) noexcept { return column.data() + 4 * records_per_pair * slot; }
-    Real const* of(std::size_t slot) const noexcept { return column.data() + 4 * records_per_pair * slot; }
 };
 
 /// The relative states of one pack of pairs.

@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include <lacuna/core/version.hpp>
-#include <lacuna/observe/canvas_file.hpp>
+#include <lacuna/core/whole_file.hpp>
 
 /// \file
 /// The envelope of a checkpoint: what is around the state in the file, and how it is told apart from anything else.

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include <lacuna/observe/canvas_file.hpp>
+#include <lacuna/core/whole_file.hpp>
 
 namespace lacuna {
 

@@ -12,7 +12,7 @@
 #include <system_error>
 #include <utility>
 
-#include <lacuna/observe/canvas_file.hpp>
+#include <lacuna/core/whole_file.hpp>
 #include <lacuna/observe/checkpoint_file.hpp>
 
 namespace lacuna {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include <lacuna/core/error.hpp>
-#include <lacuna/observe/canvas_file.hpp>
+#include <lacuna/core/whole_file.hpp>
 #include <lacuna/observe/frame_series.hpp>
 #include <lacuna/observe/vtk_scenes.hpp>
 

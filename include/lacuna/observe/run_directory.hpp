@@ -14,7 +14,7 @@
 #include <vector>
 
 #include <lacuna/core/error.hpp>
-#include <lacuna/observe/canvas_file.hpp>
+#include <lacuna/core/whole_file.hpp>
 #include <lacuna/observe/directory_lock.hpp>
 
 namespace lacuna {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include <lacuna/core/error.hpp>
-#include <lacuna/observe/canvas_file.hpp>
+#include <lacuna/core/whole_file.hpp>
 
 /// \file
 /// Files for ParaView and its kin: VTK's XML format for points, lines and polygons (.vtp) and for tetrahedra (.vtu), with

@@ -7,7 +7,7 @@
 
 #include <lacuna/model.hpp>
 #include <lacuna/particles/store.hpp>
-#include <lacuna/pores/no_pores.hpp>
+#include <lacuna/pores/mesh/no_pores.hpp>
 #include <lacuna/simulation/remesher.hpp>
 
 namespace lacuna {

@@ -10,11 +10,11 @@
 
 #include <lacuna/core/error.hpp>
 #include <lacuna/core/points.hpp>
-#include <lacuna/interactions/contact_list.hpp>
+#include <lacuna/interactions/storage/contact_list.hpp>
 #include <lacuna/motion/symplectic_euler.hpp>
 #include <lacuna/observe/energy_ledger.hpp>
 #include <lacuna/particles/store.hpp>
-#include <lacuna/pores/pore_network.hpp>
+#include <lacuna/pores/network/pore_network.hpp>
 #include <lacuna/simulation/growth_watch.hpp>
 
 /// \file

@@ -7,7 +7,7 @@
 #include <lacuna/interactions/pair_loop.hpp>
 #include <lacuna/motion/symplectic_euler.hpp>
 #include <lacuna/observe/energy_ledger.hpp>
-#include <lacuna/pores/flow.hpp>
+#include <lacuna/pores/flow/flow.hpp>
 
 namespace lacuna {
 

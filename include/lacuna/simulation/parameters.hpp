@@ -11,7 +11,7 @@
 #include <lacuna/model.hpp>
 #include <lacuna/motion/velocity_verlet.hpp>
 #include <lacuna/particles/material.hpp>
-#include <lacuna/pores/remesh.hpp>
+#include <lacuna/pores/remesh/remesh.hpp>
 #include <lacuna/simulation/guard_parameters.hpp>
 
 namespace lacuna {

@@ -14,10 +14,10 @@
 #include <lacuna/core/error.hpp>
 #include <lacuna/core/points.hpp>
 #include <lacuna/core/state.hpp>
-#include <lacuna/pores/carry_fluid.hpp>
-#include <lacuna/pores/network_shape.hpp>
-#include <lacuna/pores/remesh.hpp>
-#include <lacuna/pores/tractions.hpp>
+#include <lacuna/pores/remesh/carry_fluid.hpp>
+#include <lacuna/pores/network/network_shape.hpp>
+#include <lacuna/pores/remesh/remesh.hpp>
+#include <lacuna/pores/flow/tractions.hpp>
 
 namespace lacuna {
 

@@ -12,7 +12,7 @@
 
 #include <lacuna/core/error.hpp>
 #include <lacuna/core/points.hpp>
-#include <lacuna/interactions/contact_list.hpp>
+#include <lacuna/interactions/storage/contact_list.hpp>
 #include <lacuna/particles/store.hpp>
 
 /// \file

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // refused: aperture_law
 
-#include <lacuna/pores/flow_parameters.hpp>
+#include <lacuna/pores/flow/flow_parameters.hpp>
 
 /// Takes the gap alone: an aperture law is also told the normal force.
 struct gap_aperture {

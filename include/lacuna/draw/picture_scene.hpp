@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <lacuna/core/error.hpp>
+#include <lacuna/core/vec.hpp>
+
+namespace lacuna {
+
+/// What a picture of a plane specimen shows, as plain data in SI units, y up: filled by whoever knows the model,
+/// read by draw_packing and draw_damage (draw/picture.hpp).
+struct scene {
+    using point = vec<double, 2>;
+
+    enum class particle_kind { free, fibre, chondrocyte };
+    struct particle {
+        point position{};                        ///< m
+        double radius = 0;                       ///< m
+        particle_kind kind = particle_kind::free;
+    };
+    /// An intact bond, from particle to particle.
+    struct bond {
+        point from{};
+        point to{};
+    };
+    enum class break_mode { tension, shear };
+    /// A broken bond: where it was, and along which direction it held (any length).
+    struct crack {
+        point position{};
+        point direction{1, 0};
+        break_mode mode = break_mode::tension;
+    };
+    /// A pore's centre and the pressure of its fluid (Pa).
+    struct pore {
+        point position{};
+        double pressure = 0;
+    };
+    /// A load on a particle: where it acts, and its direction (any length).
+    struct load {
+        point at{};
+        point direction{0, -1};
+    };
+    /// A rigid wall or support from point to point; the solid side is on the right of the way from -> to.
+    struct wall {
+        point from{};
+        point to{};
+    };
+    /// A height at which a zone ends, with the name of the zone below it.
+    struct zone {
+        double low = 0;  ///< m
+        double high = 0; ///< m
+        std::string name;
+    };
+
+    double left = 0;   ///< the body's frame, m; walls and supports may lie outside
+    double bottom = 0; ///< m
+    double right = 0;  ///< m
+    double top = 0;    ///< m
+    std::vector<particle> particles;
+    std::vector<bond> bonds;
+    std::vector<crack> cracks;
+    std::vector<pore> pores;
+    std::vector<load> loads;
+    std::vector<wall> supports;
+    std::vector<wall> walls;
+    std::vector<zone> zones;
+    std::string title;                 ///< one line above the picture
+    std::string subtitle;              ///< one smaller line below the title
+    std::string load_label;            ///< beside the arrows, "60 MPa" say
+    std::vector<std::string> captions; ///< short lines of figures, beside the picture
+
+    /// \throws std::invalid_argument for an empty frame or a particle without a position or a radius
+    void validate() const {
+        require_finite("scene.left", left);
+        require_finite("scene.bottom", bottom);
+        require_positive("scene.right - left", right - left);
+        require_positive("scene.top - bottom", top - bottom);
+        for (particle const& p : particles) {
+            require_finite("scene.particles.position", p.position[0] + p.position[1]);
+            require_positive("scene.particles.radius", p.radius);
+        }
+    }
+};
+
+} // namespace lacuna

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+
+#include <lacuna/core/records.hpp>
+
+namespace lacuna {
+
+/// Forces of pairs, one record (2D: F_x, F_y, torque per radius, normal force) or two (3D: force and normal force;
+/// torque per radius and 0) each.
+template <class Real, int Dim>
+struct pair_forces {
+    static constexpr std::size_t records_per_pair = Dim == 2 ? 1 : 2;
+    record_column<Real> column;
+    Real* of(std::size_t slot) noexcept { return column.data() + 4 * records_per_pair * slot; }
+    Real const* of(std::size_t slot) const noexcept { return column.data() + 4 * records_per_pair * slot; }
+};
+
+} // namespace lacuna

@@ -1,0 +1,370 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <lacuna/core/error.hpp>
+#include <lacuna/core/parallel.hpp>
+#include <lacuna/core/points.hpp>
+#include <lacuna/core/records.hpp>
+#include <lacuna/pores/flow/corner_forces.hpp>
+#include <lacuna/pores/flow/flow_sums.hpp>
+#include <lacuna/pores/flow/flow_time_step.hpp>
+#include <lacuna/pores/flow/merging.hpp>
+#include <lacuna/pores/flow/pore_feed.hpp>
+#include <lacuna/pores/network/pore_network.hpp>
+#include <lacuna/pores/flow/pore_pass.hpp>
+#include <lacuna/pores/flow/throat_pass.hpp>
+#include <lacuna/pores/flow/tractions.hpp>
+
+namespace lacuna {
+
+/// What the flow solvers share: geometry, apertures, boundaries, tractions, balances. They differ in how the flows of a
+/// step come about.
+template <class Real, int Dim, class Parameters>
+class flow_base {
+public:
+    using parameters = Parameters;
+    using network_type = pore_network<Real, Dim>;
+
+    network_type const& network() const noexcept { return network_; }
+    parameters const& settings() const noexcept { return parameters_; }
+    /// Kept by the steps with a ledger; what the sources have brought (network().sources) is kept by all steps.
+    flow_ledger<Real> const& ledger() const noexcept { return ledger_; }
+
+    /// Pores that have become one.
+    pore_clusters<Real, Dim> const& clusters() const noexcept { return clusters_; }
+
+    /// \throws std::invalid_argument for a pore that is not there, a pressure not finite or below the minimum.
+    void set_pressure(std::size_t pore, Real pressure) {
+        if (pore >= network_.pores()) refuse("pore", double(pore), "a pore of the network");
+        parameters_.require_pressure("pressure of pore " + std::to_string(pore), double(pressure));
+        network_.pressure[pore] = pressure;
+        told_ = true;
+    }
+    /// Changes what a source prescribes from the next step on: Pa, or m^3/s.
+    /// \throws std::invalid_argument for a source that is not there, a value not finite, a pressure below the minimum.
+    void set_source(std::size_t number, double value) {
+        if (number >= network_.sources.size()) refuse("flow source", double(number), "a source of the network");
+        auto& source = network_.sources[number];
+        std::string const name = "flow source " + source.name;
+        if (source.kind == flow_source_kind::pressure)
+            parameters_.require_pressure(name, value);
+        else
+            require_finite(name, value);
+        source.value = value;
+        told_ = true;
+        if (source.kind == flow_source_kind::rate) return;
+        for (std::size_t d = 0; d < network_.drained_throats; ++d)
+            if (network_.drained_source[d] == std::int32_t(number)) network_.drained_pressure[d] = Real(value);
+    }
+
+    /// Whether set_pressure() or set_source() was called.
+    bool told() const noexcept { return told_; }
+
+    /// New pore volumes. The volume change that the next step sees is that since the last one. step() does it itself.
+    void refresh_geometry(points_view<Real, Dim> points, Real const* radii) {
+        if (network_.bare()) return;
+        if (!forces_.built()) keep_forces(true);
+        measure(particle_records(points, radii).data(), 1);
+    }
+
+    /// Tells each throat where the normal force of its pair is; to be called whenever the pairs' places in memory change.
+    /// \param lookup callable (particle i, particle j) -> place of the pair's normal force among all; 0, where no force
+    ///        is, when there is no such pair
+    template <class Lookup>
+    void map_throats(Lookup const& lookup) {
+        if (!network_.bare()) throats_.map(network_, lookup);
+    }
+
+    /// New apertures of all throats, of those that are skipped as well.
+    /// \param place records of the particles, as particle_store has them; here and below
+    /// \param normal_forces of the pairs, N, positive in tension, the first is 0; here and below
+    void refresh_apertures(body_column<Real> const& place, Real const* normal_forces, int threads = 1) noexcept {
+        if (network_.bare()) return;
+        for_each_chunk(throats_.chunks(true), threads, [&](int c) {
+            throats_.template pass<true, false, aperture_type>(c, network_, place.data(), normal_forces,
+                                                               parameters_.aperture);
+        });
+    }
+
+    /// Leaves out, from now on, the throats through which practically nothing passes within `duration` [s]: those
+    /// whose own step limit, 2 / (K_f C (1/V_1 + 1/V_2)), is more than `skip_ratio` times as long (they let at most
+    /// 2 / skip_ratio of a pressure difference through), and takes up again those that have opened. Call it after
+    /// refresh_apertures(), at the start and whenever throats may have opened.
+    /// \return how many throats are skipped
+    /// \throws std::invalid_argument for a duration that is not positive.
+    std::size_t skip_idle_throats(Real duration) {
+        require_positive("duration", double(duration));
+        for (std::size_t t = 0; t < network_.open_throats(); ++t) {
+            double const limit = throat_time_step(network_, t, parameters_.bulk_modulus);
+            network_.idle[t] = limit <= parameters_.skip_ratio * double(duration) ? 0 : 1;
+            if (network_.idle[t]) network_.flow[t] = Real(0);
+        }
+        throats_.collect_active(network_);
+        clusters_.update(network_);
+        return network_.open_throats() - throats_.active_throats();
+    }
+
+    /// Forces on the corners of a pore for 1 Pa in it, N; also of a pore at its least volume.
+    std::array<vec<Real, Dim>, std::size_t(Dim) + 1> pore_tractions(std::size_t pore, points_view<Real, Dim> points,
+                                                                    Real const* radii) const noexcept {
+        return lacuna::pore_tractions(network_, thickness_, pore, points, radii);
+    }
+
+    /// Energy stored in the compressed fluid, sum of V p^2 / 2 K_f, J.
+    Real storage_energy() const noexcept {
+        return lacuna::storage_energy(network_, parameters_.bulk_modulus);
+    }
+
+    /// Eq. 19 as printed, s: not safe where apertures differ. Skipped throats count.
+    /// With a law of sections, which have no aperture in its sense, infinite.
+    Real equation_19_time_step() const {
+        if constexpr (throat_section_law<aperture_type>) return std::numeric_limits<Real>::infinity();
+        return lacuna::equation_19_time_step(network_, parameters_.bulk_modulus, parameters_.conductivity);
+    }
+
+    template <class Archive>
+    void serialize(Archive& ar) {
+        ar(network_, ledger_, feed_);
+        if constexpr (Archive::is_loading::value) {
+            throats_.collect_active(network_);
+            clusters_.build(network_, parameters_.merge_conductance);
+        }
+    }
+
+protected:
+    using aperture_type = typename parameters::aperture_type;
+    /// Rigid pores of a bare network, whose volumes and apertures stay as given.
+    flow_base(parameters const& p, network_type network) : flow_base(p, std::move(network), Real(1)) {}
+    /// Pores of a body, at its present geometry.
+    flow_base(parameters const& p, network_type network, Real thickness, points_view<Real, Dim> points,
+              Real const* radii)
+        : flow_base(p, std::move(network), thickness) {
+        refresh_geometry(points, radii);
+        network_.old_volume = network_.volume;
+        // The sides of a facet are no pairs that touch: throats are opened by where the particles are.
+        if constexpr (Dim == 3) refresh_apertures(particle_records(points, radii), std::array<Real, 1>{}.data());
+    }
+
+    /// Takes over a network and a ledger.
+    /// \return whether throats join the same pores as before
+    bool restore_state(network_type network, flow_ledger<Real> const& ledger) {
+        bool const same = network.corner == network_.corner && network.throat_pore == network_.throat_pore &&
+                          network.size == network_.size && network.pores() == network_.pores() && network.open_throats() == network_.open_throats();
+        network_ = std::move(network);
+        ledger_ = ledger;
+        fit_vapour();
+        if (same) {
+            pores_.set_fillers(network_);
+            throats_.collect_active(network_);
+            feed_.build(network_);
+            clusters_.build(network_, parameters_.merge_conductance);
+        } else {
+            build_tables();
+        }
+        return same;
+    }
+
+    bool flows() const noexcept { return throats_.active_throats() > 0; }
+    Real substep_limit() const noexcept {
+        return clusters_.on() ? clusters_.critical_time_step(network_, parameters_.bulk_modulus)
+                              : flow_critical_time_step(network_, parameters_.bulk_modulus);
+    }
+
+    /// New volumes and forces for 1 Pa.
+    void measure(Real const* place, int threads) noexcept {
+        for_each_chunk(pores_.chunks(), threads, [&](int c) { pores_.measure(c, network_, place, thickness_, forces_); });
+    }
+    /// Forces of the pressures, after measure().
+    void press(record_column<Real>* tractions, int threads) noexcept {
+        for_each_chunk(pores_.chunks(), threads, [&](int c) { pores_.press(c, network_, forces_); });
+        write_tractions(tractions, threads);
+    }
+    /// Makes room for the forces on the corners. \param streaming see corner_forces
+    void keep_forces(bool streaming) {
+        if (forces_.built() && forces_.streaming() == streaming) return;
+        forces_.build(network_, pore_table<Real, Dim>::chunk_packs * pore_table<Real, Dim>::width, streaming);
+    }
+    /// Whether forces can be summed up as soon as they are there: on one thread, with throats in the order of their pores,
+    /// and nothing changes a pressure after the pass over the pores.
+    bool can_stream(int threads) const noexcept {
+        return threads == 1 && throats_.in_order() && feed_.pores().empty() && !clusters_.on();
+    }
+
+    /// The whole step where can_stream(): throats, pores and sums on the particles follow each other run by run, while
+    /// what they read is in the cache. A throat belongs to the lower of its pores: once the throats before the end of a
+    /// run have their flows, nothing reads the old pressures of its pores again.
+    void sweep(Real const* place, Real const* normal_forces, Real dt, bool flowing, record_column<Real>* tractions) noexcept {
+        auto const fluid = constants();
+        auto const flow_through = [&](std::size_t first, std::size_t end) {
+            throats_.template pass<true, true, aperture_type>(first, end, network_, place, normal_forces,
+                                                              parameters_.aperture);
+        };
+        std::size_t done = 0;
+        // Drained throats belong to pores anywhere.
+        if (flowing) flow_through(throats_.first_beyond(network_, network_.pores(), 0), throats_.packs(false).size());
+        std::size_t const run = pore_table<Real, Dim>::chunk_packs * pore_table<Real, Dim>::width;
+        for (int c = 0; c < pores_.chunks(); ++c) {
+            if (flowing) {
+                std::size_t const end = throats_.first_beyond(network_, std::size_t(c + 1) * run, done);
+                flow_through(done, end);
+                done = end;
+            }
+            pores_.template advance<true, false>(c, network_, place, fluid, dt, flowing, Real(1), forces_,
+                                                 pore_sums_[std::size_t(c)]);
+            if (tractions) forces_.write_met(std::size_t(c), *tractions);
+        }
+        feed_.count(network_, dt, flowing);
+    }
+
+    /// Eq. 14 from the present pressures, for all throats that are not skipped; with Moves, new apertures first.
+    template <bool Moves>
+    void compute_flows(Real const* place, Real const* normal_forces, int threads) noexcept {
+        for_each_chunk(throats_.chunks(false), threads, [&](int c) {
+            throats_.template pass<Moves, true, aperture_type>(c, network_, place, normal_forces, parameters_.aperture);
+        });
+    }
+
+    /// Eq. 15 for all pores over dt [s], from the flows that the network holds, and what the sources bring.
+    /// \tparam Fused measures the pores and writes their forces in the same pass
+    /// \param flowing whether anything flows through throats
+    /// \param part see pore_table::advance()
+    /// \param tractions as in step(); used if Fused
+    template <bool Fused, bool WithLedger>
+    void advance_pressures(Real const* place, Real dt, Real part, bool flowing, int threads,
+                           [[maybe_unused]] record_column<Real>* tractions = nullptr) noexcept {
+        auto const fluid = constants();
+        feed_.remember(network_);
+        if constexpr (WithLedger) {
+            clusters_.remember(network_);
+            std::fill(throat_sums_.begin(), throat_sums_.end(), throat_sums<Real>{});
+            add_up_throats(flowing ? dt : Real(0), threads);
+        }
+        for_each_chunk(pores_.chunks(), threads, [&](int c) {
+            pores_.template advance<Fused, WithLedger>(c, network_, place, fluid, dt, flowing, part, forces_,
+                                                       pore_sums_[std::size_t(c)]);
+            if (Fused && tractions && forces_.streaming()) forces_.write_met(std::size_t(c), *tractions);
+        });
+        pore_sums<Real> pores;
+        throat_sums<Real> throats;
+        feed_.apply(network_, fluid, dt, flowing, pores, throats);
+        clusters_.template equalise<WithLedger>(network_, fluid, pores);
+        if constexpr (Fused) {
+            for (auto const& f : feed_.pores()) pores_.press_one(f.pore, network_, place, thickness_, forces_);
+            for (auto const p : clusters_.members()) pores_.press_one(std::size_t(p), network_, place, thickness_, forces_);
+            if (!forces_.streaming()) write_tractions(tractions, threads);
+        }
+        if constexpr (WithLedger) {
+            add_up_throats(flowing ? dt : Real(0), threads);
+            for (auto const& s : throat_sums_) throats += s;
+            for (int c = 0; c < pores_.chunks(); ++c) pores += pore_sums_[std::size_t(c)];
+            book(ledger_, pores, throats);
+        }
+    }
+
+    /// Several flow steps within one of dt [s], of pores measured before.
+    /// \param flow callable (first or not, dt, share of the volume change) that leaves the flows in the network
+    template <bool WithLedger, class Flow>
+    void take_substeps(int count, Real dt, int threads, Flow const& flow) {
+        bool const flowing = flows() && dt > Real(0);
+        Real const part = dt / Real(count);
+        for (int s = 0; s < count; ++s) {
+            Real const share = Real(1) / Real(count - s);
+            if (flowing) flow(s == 0, part, share);
+            advance_pressures<false, WithLedger>(nullptr, part, share, flowing, threads);
+        }
+    }
+
+    template <bool WithLedger>
+    void begin_step() noexcept {
+        if constexpr (WithLedger) open_step(ledger_);
+        clusters_.update(network_);
+        Real const lost = clusters_.settle(network_, constants());
+        if constexpr (WithLedger) ledger_.dissipation += lost;
+    }
+    void end_step(Real dt) noexcept {
+        if (dt > Real(0)) feed_.close(network_, dt);
+    }
+
+    parameters parameters_;
+    Real thickness_;
+    bool told_ = false;
+    network_type network_;
+    flow_ledger<Real> ledger_;
+    pore_feed<Real> feed_;
+    pore_clusters<Real, Dim> clusters_;
+
+private:
+    void write_tractions(record_column<Real>* tractions, int threads) const noexcept {
+        if (!tractions) return;
+        for_each_chunk(forces_.chunks(), threads, [&](int c) { forces_.write(c, *tractions); });
+    }
+
+    flow_base(parameters const& p, network_type network, Real thickness)
+        : parameters_(p), thickness_(thickness), network_(std::move(network)) {
+        parameters_.validate("flow");
+        require_positive("thickness", double(thickness));
+        if (Dim == 3 && thickness != Real(1)) refuse("thickness", double(thickness), "1 in space");
+        for (std::size_t k = 0; k < network_.pores(); ++k) {
+            network_.pressure[k] += Real(p.initial_pressure);
+            parameters_.require_pressure("initial pressure of pore " + std::to_string(k), double(network_.pressure[k]));
+        }
+        for (auto const& source : network_.sources)
+            if (source.kind == flow_source_kind::pressure)
+                parameters_.require_pressure("flow source " + source.name, source.value);
+        if constexpr (!throat_section_law<aperture_type>) if (!network_.bare()) {
+            Real const aperture = aperture_type::aperture(p.aperture, Real(0), Real(0));
+            std::fill(network_.aperture.begin(), network_.aperture.end(), aperture);
+        }
+        for (std::size_t t = 0; t < network_.open_throats(); ++t) {
+            Real const a = network_.aperture[t];
+            network_.conductance[t] = Real(p.conductivity) * (a * a * a / network_.length[t]);
+        }
+        fit_vapour();
+        build_tables();
+    }
+
+    /// A fluid that never tears has no vapour, one that does has some or none in every pore.
+    void fit_vapour() {
+        if (!(parameters_.minimum_pressure > -std::numeric_limits<double>::infinity()))
+            network_.vapour = {};
+        else if (network_.vapour.empty())
+            network_.vapour.assign(network_.pores(), Real(0));
+    }
+    /// The throats' part in the ledger of a step with the present pressures; see throat_table::add_up().
+    void add_up_throats(Real dt, int threads) noexcept {
+        for_each_chunk(throats_.chunks(false), threads,
+                       [&](int c) { throats_.add_up(c, network_, dt, throat_sums_[std::size_t(c)]); });
+    }
+
+    void build_tables() {
+        pores_.build(network_, Real(parameters_.minimum_volume_fraction) * thickness_);
+        throats_.build(network_, Real(parameters_.conductivity));
+        pore_sums_.resize(std::size_t(std::max(pores_.chunks(), 1)));
+        throat_sums_.resize(std::size_t(throats_.chunks(true)));
+        forces_ = {};
+        feed_.build(network_);
+        clusters_.build(network_, parameters_.merge_conductance);
+    }
+
+    pore_constants<Real> constants() const noexcept {
+        return {Real(parameters_.bulk_modulus), thickness_, Real(parameters_.minimum_pressure)};
+    }
+
+    pore_table<Real, Dim> pores_;
+    throat_table<Real, Dim> throats_;
+    corner_forces<Real, Dim> forces_;
+    std::vector<pore_sums<Real>> pore_sums_;
+    std::vector<throat_sums<Real>> throat_sums_;
+};
+
+} // namespace lacuna

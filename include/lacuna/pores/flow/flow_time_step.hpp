@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+
+#include <lacuna/pores/network/pore_network.hpp>
+
+namespace lacuna {
+
+/// Largest safe step of the explicit flow, s: min over the pores of V_i / (K_f sum_j C_ij), drained throats
+/// included, skipped ones not; infinity where nothing flows.
+///
+/// With dt up to here every new pressure is a mean, with weights >= 0, of the old ones and the reservoirs': no
+/// pressure leaves their range. Stability alone: Gershgorin's circles of the matrix of K_f/V_i C_ij give
+/// lambda <= max K_f/V_i (2 sum C_interior + sum C_drained) and dt <= 2 / lambda, which is the same without
+/// reservoirs, and up to twice as long at a pore that has nothing but reservoirs.
+/// \param bulk_modulus K_f, Pa
+template <class Real, int Dim>
+Real flow_critical_time_step(pore_network<Real, Dim> const& net, double bulk_modulus) noexcept {
+    double limit = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < net.pores(); ++i) {
+        double conductance = 0;
+        net.throats_of.for_each(i, [&](std::size_t t, int) {
+            if (!net.idle[t]) conductance += double(net.conductance[t]);
+        });
+        if (conductance > 0) limit = std::min(limit, double(net.volume[i]) / (bulk_modulus * conductance));
+    }
+    return Real(limit);
+}
+
+/// Longest step of a throat by itself, s: 2 / (K_f C (1/V_1 + 1/V_2)); infinity where it is shut.
+/// \param bulk_modulus K_f, Pa
+template <class Real, int Dim>
+double throat_time_step(pore_network<Real, Dim> const& net, std::size_t throat, double bulk_modulus) noexcept {
+    auto const other = net.throat_pore[1][throat];
+    Real rate = Real(1) / net.volume[std::size_t(net.throat_pore[0][throat])];
+    if (other >= 0) rate += Real(1) / net.volume[std::size_t(other)];
+    return 2 / (bulk_modulus * double(net.conductance[throat]) * double(rate));
+}
+
+/// Eq. 19 as printed, dt = 2 R V_p / (N K_f k a^3), the least over the pores, s: R the mean radius of the particles
+/// around the pore, N its open throats (skipped ones included), a their mean aperture. Up to nearly twice too long
+/// where apertures differ; flow_critical_time_step() is safe.
+/// \param bulk_modulus K_f, Pa; \param conductivity k, m/(s Pa)
+template <class Real, int Dim>
+Real equation_19_time_step(pore_network<Real, Dim> const& net, double bulk_modulus, double conductivity) noexcept {
+    double limit = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < net.pores(); ++i) {
+        double aperture = 0, diameter = 0;
+        int open = 0, all = 0;
+        net.throats_of.for_each(i, [&](std::size_t t, int) {
+            ++all;
+            diameter += double(net.length[t]);
+            if (t >= net.open_throats()) return;
+            ++open;
+            aperture += double(net.aperture[t]);
+        });
+        if (!(open > 0) || !(conductivity > 0)) continue;
+        // A throat is as long as the radii of its two particles: the mean length is 2 R.
+        diameter /= all;
+        aperture /= open;
+        limit = std::min(limit, diameter * double(net.volume[i]) /
+                                    (open * bulk_modulus * conductivity * aperture * aperture * aperture));
+    }
+    return Real(limit);
+}
+
+} // namespace lacuna

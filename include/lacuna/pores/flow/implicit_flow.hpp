@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <lacuna/core/aggregate.hpp>
+#include <lacuna/core/error.hpp>
+#include <lacuna/core/points.hpp>
+#include <lacuna/core/records.hpp>
+#include <lacuna/laws/aperture.hpp>
+#include <lacuna/pores/flow/flow.hpp>
+#include <lacuna/pores/flow/flow_base.hpp>
+#include <lacuna/pores/flow/flow_parameters.hpp>
+#include <lacuna/pores/network/pore_network.hpp>
+#include <lacuna/pores/flow/pressure_system.hpp>
+
+namespace lacuna {
+
+/// Parameters of the implicit scheme: those of the fluid and its throats, and how exactly equations are solved.
+template <aperture_law Aperture>
+struct implicit_flow_parameters : flow_parameters<Aperture> {
+    /// Relative change of a pore's volume, a throat's conductance or the time step up to which an earlier factorisation
+    /// serves as preconditioner; 0: factorise whenever anything has changed; 0 to < 1.
+    double factorisation_tolerance = 0.2;
+    /// What may be left of the equations, as a pressure over the largest in the network; > 0, < 1. Mass is kept to
+    /// rounding whatever it is.
+    double solver_tolerance = 1e-10;
+
+    /// \throws std::invalid_argument naming field, value and rule.
+    void validate(std::string const& name) const {
+        flow_parameters<Aperture>::validate(name);
+        if (this->minimum_pressure > -std::numeric_limits<double>::infinity())
+            refuse(name + ".minimum_pressure", this->minimum_pressure,
+                   "-infinity with implicit flow: a fluid that tears needs explicit_flow");
+        if (!(factorisation_tolerance >= 0 && factorisation_tolerance < 1))
+            refuse(name + ".factorisation_tolerance", factorisation_tolerance, ">= 0 and < 1");
+        if (!(solver_tolerance > 0 && solver_tolerance < 1))
+            refuse(name + ".solver_tolerance", solver_tolerance, "> 0 and < 1");
+    }
+    /// Its members, by name; see core/aggregate.hpp.
+    template <class Visit>
+    void for_each_named(Visit const& visit) {
+        for_each_named_member(static_cast<flow_parameters<Aperture>&>(*this), visit);
+        visit("factorisation_tolerance", factorisation_tolerance);
+        visit("solver_tolerance", solver_tolerance);
+    }
+};
+
+/// Backward Euler for eq. 14 and 15: all flows from the new pressures, of
+///
+///   (V / K_f + dt L) p_new = V / K_f p_old + dt (sources) - dV,
+///
+/// L the network's Laplacian of conductances with the reservoirs' in its diagonal. Stable for any step, of first order,
+/// no pressure leaves the range of the old ones and the reservoirs'. The paper has the explicit scheme alone.
+///
+/// The equations are solved for the change of the pressures, and the flows corrected by the change: a flow has the
+/// accuracy of itself, not of the pressures whose difference it is. Pressures then follow from the flows as in the
+/// explicit scheme, so that mass is kept to rounding. Where a step is R times the explicit limit, differences between
+/// the pressures of neighbours carry rounding of R times 1e-16 of themselves.
+///
+/// How far an earlier factorisation is from the present numbers leaves its trace below `solver_tolerance`: a checkpoint
+/// keeps the numbers that were factorised.
+///
+/// Memory is allocated when a topology is analysed and when numbers are factorised, in no other step. The equations are
+/// solved on one thread, in double precision also for float: the same bits for any number of threads.
+template <class Real, int Dim, aperture_law Aperture>
+class implicit_flow_solver : public flow_base<Real, Dim, implicit_flow_parameters<Aperture>> {
+    using base = flow_base<Real, Dim, implicit_flow_parameters<Aperture>>;
+
+public:
+    using parameters = implicit_flow_parameters<Aperture>;
+    using network_type = pore_network<Real, Dim>;
+
+    /// Rigid pores: a bare network, whose volumes and apertures stay as given.
+    /// \throws std::invalid_argument for parameters out of range.
+    implicit_flow_solver(parameters const& p, network_type network) : base(p, std::move(network)) { prepare(); }
+
+    /// Pores of a body, at its present geometry and the apertures of pairs at zero force that touch (in space: pairs at
+    /// zero force where they are).
+    /// \param thickness of the body, out of the plane, m; > 0; in space 1
+    /// \param points centres, m; \param radii m: of all particles
+    /// \throws std::invalid_argument for parameters out of range.
+    implicit_flow_solver(parameters const& p, network_type network, Real thickness, points_view<Real, Dim> points,
+                         Real const* radii)
+        : base(p, std::move(network), thickness, points, radii) {
+        prepare();
+    }
+
+    /// Goes on from another network and ledger: earlier ones of the same body, or those of a new mesh (then
+    /// map_throats() anew). Volumes, apertures and conductances are taken as they are.
+    void restore(network_type network, flow_ledger<Real> const& ledger) {
+        if (this->restore_state(std::move(network), ledger))
+            mark_held();
+        else
+            prepare();
+    }
+
+    /// One step of dt [s] of a body: new geometry and apertures, new pressures, eq. 16's forces from them. Within a
+    /// step of 0 s pressures follow the volumes, and nothing flows.
+    /// \tparam WithLedger also keeps ledger()
+    /// \param tractions as in explicit_flow_solver::step()
+    template <bool WithLedger>
+    void step(body_column<Real> const& place, Real const* normal_forces, Real dt, int threads = 1,
+              record_column<Real>* tractions = nullptr) {
+        if (this->network_.bare()) {
+            if (tractions) tractions->assign(tractions->size(), record<Real>(Real(0)));
+            return advance<WithLedger>(dt, threads);
+        }
+        this->template begin_step<WithLedger>();
+        bool const flowing = this->flows() && dt > Real(0);
+        this->keep_forces(false);
+        if (flowing) {
+            this->measure(place.data(), threads);
+            this->template compute_flows<true>(place.data(), normal_forces, threads);
+            this->template take_substeps<WithLedger>(
+                count_substeps(), dt, threads, [&](bool, Real part, Real share) { solve_flows(part, share); });
+            this->press(tractions, threads);
+        } else {
+            this->template advance_pressures<true, WithLedger>(place.data(), dt, Real(1), false, threads, tractions);
+        }
+        this->end_step(dt);
+    }
+    /// The same with volumes and apertures as they are, and without forces: the step of rigid pores.
+    template <bool WithLedger = true>
+    void advance(Real dt, int threads = 1) {
+        this->template begin_step<WithLedger>();
+        this->template take_substeps<WithLedger>(
+            count_substeps(), dt, threads, [&](bool, Real part, Real share) { solve_flows(part, share); });
+        this->end_step(dt);
+    }
+
+    /// No step is too long: infinity, s.
+    Real critical_time_step() const noexcept { return std::numeric_limits<Real>::infinity(); }
+
+    /// How often topologies were analysed and numbers factorised, and the iterations of all steps together.
+    pressure_system::counters const& solver_counters() const noexcept { return system_.done(); }
+    /// What the last step left of the equations, as a pressure over the largest in the network.
+    double solver_residual() const noexcept { return left_; }
+
+    template <class Archive>
+    void serialize(Archive& ar) {
+        base::serialize(ar);
+        ar(system_, left_);
+    }
+
+private:
+    int count_substeps() const noexcept { return std::max(this->parameters_.substeps, 1); }
+
+    void prepare() {
+        auto const& net = this->network_;
+        system_.analyse(net.pores(), net.throat_pore, net.open_throats());
+        pressure_.resize(net.pores());
+        residual_.resize(net.pores());
+        change_.resize(net.pores());
+        flow_.resize(net.open_throats());
+        mark_held();
+    }
+    void mark_held() {
+        std::fill(system_.held().begin(), system_.held().end(), char(0));
+        for (auto const& f : this->feed_.pores())
+            if (holds(f)) system_.held()[f.pore] = 1;
+    }
+    template <class Fed>
+    bool holds(Fed const& f) const noexcept {
+        return this->network_.sources[f.source].kind == flow_source_kind::pressure;
+    }
+
+    /// Leaves in the network the flows of the pressures after dt [s], the pores going `share` of the way from their old
+    /// volumes to the network's.
+    void solve_flows(Real time_step, Real share) {
+        auto& net = this->network_;
+        double const dt = double(time_step);
+        for (std::size_t i = 0; i < net.pores(); ++i) {
+            double const old = double(net.old_volume[i]), volume = double(net.volume[i]);
+            system_.content()[i] = (share < Real(1) ? old + (volume - old) * double(share) : volume) /
+                                   this->parameters_.bulk_modulus;
+            pressure_[i] = double(net.pressure[i]);
+        }
+        for (std::size_t t = 0; t < net.open_throats(); ++t)
+            system_.leak()[t] = net.idle[t] ? 0.0 : dt * double(net.conductance[t]);
+        for (auto const& f : this->feed_.pores())
+            if (holds(f)) pressure_[f.pore] = net.sources[f.source].value;
+        for (std::size_t t = 0; t < net.open_throats(); ++t)
+            flow_[t] = net.idle[t] ? 0.0 : double(net.conductance[t]) * (far_pressure(t) - pressure_[near(t)]);
+        system_.prepare(this->parameters_.factorisation_tolerance);
+        double const tolerance = this->parameters_.solver_tolerance;
+        left_ = left_over(dt, double(share));
+        for (int round = 0; round < 4 && !(left_ <= tolerance); ++round) {
+            double const before = left_;
+            // The last thing to help is a new factorisation.
+            if (round == 3) system_.factorise();
+            system_.solve(residual_, change_, 0.1 * tolerance * scale_);
+            for (std::size_t i = 0; i < net.pores(); ++i) pressure_[i] += change_[i];
+            for (std::size_t t = 0; t < net.open_throats(); ++t) {
+                if (net.idle[t]) continue;
+                double const far = t < net.interior_throats ? change_[std::size_t(net.throat_pore[1][t])] : 0.0;
+                flow_[t] += double(net.conductance[t]) * (far - change_[near(t)]);
+            }
+            left_ = left_over(dt, double(share));
+            // Rounding is reached.
+            if (round > 0 && left_ > 0.5 * before) break;
+        }
+        for (std::size_t t = 0; t < net.open_throats(); ++t) net.flow[t] = Real(flow_[t]);
+    }
+
+    /// What the present flows and pressures leave of the equations, as a pressure over the largest one.
+    double left_over(double dt, double share) noexcept {
+        auto const& net = this->network_;
+        auto const& content = system_.content();
+        scale_ = 0;
+        for (std::size_t i = 0; i < net.pores(); ++i) {
+            double const old = double(net.pressure[i]);
+            double grown = double(net.volume[i]) - double(net.old_volume[i]);
+            if (share < 1) grown *= share;
+            residual_[i] = -grown - content[i] * (pressure_[i] - old);
+            scale_ = std::max({scale_, std::fabs(old), std::fabs(pressure_[i])});
+        }
+        for (std::size_t t = 0; t < net.open_throats(); ++t) {
+            residual_[near(t)] += flow_[t] * dt;
+            if (t < net.interior_throats)
+                residual_[std::size_t(net.throat_pore[1][t])] -= flow_[t] * dt;
+            else
+                scale_ = std::max(scale_, std::fabs(double(net.reservoir_pressure(t))));
+        }
+        for (auto const& f : this->feed_.pores())
+            if (!holds(f)) residual_[f.pore] += net.sources[f.source].value * f.share * dt;
+        double most = 0;
+        for (std::size_t i = 0; i < net.pores(); ++i) {
+            if (system_.held()[i]) residual_[i] = 0;
+            most = std::max(most, std::fabs(residual_[i]) / content[i]);
+        }
+        return most > 0 ? most / scale_ : 0;
+    }
+
+    std::size_t near(std::size_t throat) const noexcept { return std::size_t(this->network_.throat_pore[0][throat]); }
+    double far_pressure(std::size_t throat) const noexcept {
+        auto const& net = this->network_;
+        return throat < net.interior_throats ? pressure_[std::size_t(net.throat_pore[1][throat])]
+                                             : double(net.reservoir_pressure(throat));
+    }
+
+    pressure_system system_;
+    std::vector<double> pressure_, residual_, change_, flow_;
+    double left_ = 0, scale_ = 0;
+};
+
+/// Flow policy: implicit_flow_solver with an aperture law of one's choice.
+template <aperture_law Aperture>
+struct implicit_flow_with {
+    using parameters = implicit_flow_parameters<Aperture>;
+    template <class Real, int Dim>
+    using solver = implicit_flow_solver<Real, Dim, Aperture>;
+};
+
+/// Flow policy: backward Euler with the aperture from the contact force.
+using implicit_flow = implicit_flow_with<contact_force_aperture>;
+
+} // namespace lacuna

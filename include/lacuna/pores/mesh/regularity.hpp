@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include <lacuna/pores/mesh/exact_signs.hpp>
+#include <lacuna/pores/mesh/mesh.hpp>
+
+namespace lacuna::detail {
+
+/// Finds out whether simplices are a regular triangulation of sites. They are when
+///   - each has a positive orientation, and across no side lies a corner within its orthogonal sphere;
+///   - their boundary is one convex surface;
+///   - a site that is no corner lies in the orthogonal sphere of none: it is enough to ask the simplex that it is in.
+/// A sphere is empty when weights that differ by at most 1e-7 of the squared distance of the nearest two of its sites
+/// would make it so: rounding decides between nearly equal diagonals.
+template <int Dim>
+class regularity {
+public:
+    using simplex = typename exact_signs<Dim>::simplex;
+
+    /// \param mesh its corners are sites[index[corner]]
+    regularity(pore_mesh<Dim> const& mesh, weighted_sites<Dim> const& sites, std::vector<std::int32_t> const& index)
+        : sign_(sites), neighbours_(mesh.neighbours) {
+        simplices_ = mesh.simplices;
+        for (auto& s : simplices_)
+            for (auto& corner : s) corner = index[std::size_t(corner)];
+    }
+
+    bool holds() const {
+        for (auto const& s : simplices_)
+            if (!(sign_.orientation(s) > 0)) return false;
+        return !simplices_.empty() && spheres_are_empty() && boundary_is_convex() && others_are_hidden();
+    }
+
+private:
+    static constexpr auto dim = std::size_t(Dim);
+    using place = vec<double, Dim>;
+    struct ridge {
+        std::array<std::int32_t, dim - 1> sites;
+        std::size_t side, opposite;
+        bool operator<(ridge const& o) const noexcept { return sites < o.sites; }
+    };
+
+    place at(std::int32_t site) const noexcept {
+        place x;
+        for (std::size_t a = 0; a < dim; ++a) x[int(a)] = sign_.sites().x[std::size_t(site)][a];
+        return x;
+    }
+
+    bool is_outside_sphere(simplex const& s, std::int32_t p) const {
+        auto const r = sign_.read(s, p);
+        double const allowed = 1e-7 * r.nearest * r.share;
+        if (r.error <= allowed || std::fabs(r.inside) > r.error + allowed) return r.inside <= allowed;
+        return sign_.exact_inside(s, p) <= allowed;
+    }
+    bool spheres_are_empty() const {
+        for (std::size_t s = 0; s < simplices_.size(); ++s)
+            for (auto const other : neighbours_[s]) {
+                if (other < 0 || std::size_t(other) < s) continue;
+                auto const& back = neighbours_[std::size_t(other)];
+                auto const corner = std::size_t(std::find(back.begin(), back.end(), std::int32_t(s)) - back.begin());
+                if (!is_outside_sphere(simplices_[s], simplices_[std::size_t(other)][corner])) return false;
+            }
+        return true;
+    }
+
+    /// Sine of the angle by which the boundary turns inwards from one side to the next: the third site's height within the
+    /// side over its distance from the ridge. 0 where the four (in the plane: three) span no more than simplices without
+    /// size do, which are left out over straight sides of the hull.
+    double turn(std::array<std::int32_t, dim> const& side, ridge const& from, std::int32_t to) const noexcept {
+        double longest = 0, within, squares;
+        auto const x = at(side[0]);
+        for (auto const site : side) longest = std::max(longest, norm(at(to) - at(site)));
+        if constexpr (Dim == 2) {
+            auto const along = at(side[1]) - x;
+            longest = std::max(longest, norm(along));
+            within = cross(along, at(to) - x);
+            squares = norm(along) * norm(at(to) - at(from.sites[0]));
+        } else {
+            auto const across = cross(at(side[1]) - x, at(side[2]) - x);
+            auto const edge = at(from.sites[1]) - at(from.sites[0]);
+            longest = std::max({longest, norm(edge), norm(at(side[1]) - x), norm(at(side[2]) - x)});
+            within = -dot(across, at(to) - x);
+            squares = norm(across) * norm(cross(edge, at(to) - at(from.sites[0]))) / norm(edge);
+        }
+        bool const none = std::fabs(within) <= 1e-11 * std::pow(longest, Dim) &&
+                          longest < weighted_sites<Dim>::longest_wall(sign_.sites().reach);
+        return none ? 0 : within / squares;
+    }
+
+    bool boundary_is_convex() const {
+        std::vector<std::array<std::int32_t, dim>> sides;
+        std::vector<ridge> ridges;
+        for (std::size_t s = 0; s < simplices_.size(); ++s)
+            for (std::size_t c = 0; c <= dim; ++c)
+                if (neighbours_[s][c] < 0) sides.push_back(side_of(simplices_[s], c));
+        for (std::size_t f = 0; f < sides.size(); ++f)
+            for (std::size_t c = 0; c < dim; ++c) {
+                ridge one{{}, f, c};
+                for (std::size_t k = 0; k + 1 < dim; ++k) one.sites[k] = sides[f][k < c ? k : k + 1];
+                std::sort(one.sites.begin(), one.sites.end());
+                ridges.push_back(one);
+            }
+        std::sort(ridges.begin(), ridges.end());
+        std::vector<std::size_t> root(sides.size());
+        for (std::size_t f = 0; f < sides.size(); ++f) root[f] = f;
+        auto const find = [&](std::size_t f) {
+            while (root[f] != f) f = root[f] = root[root[f]];
+            return f;
+        };
+        std::size_t surfaces = sides.size();
+        double turned = 0;
+        for (std::size_t k = 0; k < ridges.size(); k += 2) {
+            if (k + 1 == ridges.size() || ridges[k].sites != ridges[k + 1].sites) return false;
+            if (k + 2 < ridges.size() && ridges[k].sites == ridges[k + 2].sites) return false;
+            auto const &a = ridges[k], &b = ridges[k + 1];
+            double const sine = turn(sides[a.side], a, sides[b.side][b.opposite]);
+            if (!(sine >= -1e-8)) return false;
+            if constexpr (Dim == 2) turned += turned_by(sides[a.side], sides[b.side], sine);
+            auto const one = find(a.side), other = find(b.side);
+            surfaces -= one != other;
+            root[one] = other;
+        }
+        return surfaces == 1 && turned < 7;
+    }
+    /// By how much two sides in the plane turn: a boundary that goes round once turns by 2 pi.
+    double turned_by(std::array<std::int32_t, dim> const& a, std::array<std::int32_t, dim> const& b,
+                     double sine) const noexcept {
+        return std::atan2(sine, dot(at(a[1]) - at(a[0]), at(b[1]) - at(b[0])) /
+                                    (norm(at(a[1]) - at(a[0])) * norm(at(b[1]) - at(b[0]))));
+    }
+
+    bool others_are_hidden() const {
+        std::vector<std::uint8_t> seen(sign_.sites().size(), 0);
+        for (auto const& s : simplices_)
+            for (auto const corner : s) seen[std::size_t(corner)] = 1;
+        std::size_t t = 0;
+        for (std::size_t p = 0; p < seen.size(); ++p)
+            if (!seen[p] && !is_hidden(std::int32_t(p), t)) return false;
+        return true;
+    }
+    /// \param t where the search begins, and where it has ended
+    bool is_hidden(std::int32_t p, std::size_t& t) const {
+        for (std::size_t steps = 0; steps <= simplices_.size(); ++steps) {
+            std::int32_t next = -1;
+            bool inside = true;
+            for (std::size_t c = 0; c <= dim && inside; ++c) {
+                auto turned = simplices_[t];
+                turned[c] = p;
+                double const size = sign_.orientation(turned);
+                if (size >= 0) continue;
+                // Beyond the hull by no more than rounding: on a straight side of it.
+                next = neighbours_[t][c];
+                if (next < 0 && size > -1e-12 * std::pow(sign_.sites().reach, Dim)) continue;
+                inside = false;
+            }
+            if (inside) return is_outside_sphere(simplices_[t], p);
+            if (next < 0) return false;
+            t = std::size_t(next);
+        }
+        return false;
+    }
+
+    exact_signs<Dim> sign_;
+    std::vector<simplex> simplices_;
+    std::vector<simplex> const& neighbours_;
+};
+
+} // namespace lacuna::detail

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <lacuna/core/error.hpp>
+#include <lacuna/core/points.hpp>
+#include <lacuna/pores/mesh/exact_signs.hpp>
+
+namespace lacuna::detail {
+
+/// Coordinates of a point in the scaled frame of a triangulation.
+template <int Dim>
+using scaled_point = std::array<double, std::size_t(Dim)>;
+
+/// Orders points along a slanted line: along an axis, rounding would decide on the order of a row.
+template <int Dim>
+double along(scaled_point<Dim> const& x) noexcept {
+    double sum = x[0] + 0.6180339887498949 * x[1];
+    if constexpr (Dim == 3) sum += 0.3819660112501051 * x[2];
+    return sum;
+}
+
+/// Small numbers in no order, from -1 to 1, one for each k.
+inline double scatter(std::uint64_t k) noexcept {
+    k = (k + 1) * 0x9e3779b97f4a7c15;
+    k = (k ^ (k >> 30)) * 0xbf58476d1ce4e5b9;
+    k = (k ^ (k >> 27)) * 0x94d049bb133111eb;
+    return double((k ^ (k >> 31)) >> 11) * 0x1p-52 - 1;
+}
+
+/// Distinct particles of a triangulation, moved and scaled to fit into a box of side 1 around the origin.
+template <int Dim>
+struct scaled_particles {
+    std::vector<std::int32_t> particle; ///< their numbers
+    std::vector<scaled_point<Dim>> x;   ///< their centres, sorted by along()
+    std::vector<double> radius;
+    double scale = 0; ///< 1 / m
+    /// The extent, but not more than 64 of the largest radius: one particle far away says nothing about what is near.
+    double reach = 1;
+
+    /// What is added to the height of one, of N.
+    ///
+    /// In space Qhull cuts up more than four points on one sphere in a way that leaves flat tetrahedra between the
+    /// others. Heights in general position have no such points.
+    double shift(std::size_t k) const noexcept {
+        if constexpr (Dim == 2) return 0;
+        double const most = radius[k] > 0 ? std::min(nudge, 64e-7 * radius[k] * radius[k]) : nudge;
+        return most * scatter(k);
+    }
+    double nudge = 0; ///< 1e-7 N^(-2/3)
+};
+
+/// How far the points are from lying on one line (in space: in one plane): the height, over the extent, of the largest
+/// simplex that choosing the farthest point time after time gives.
+template <int Dim>
+double flatness(std::vector<scaled_point<Dim>> const& points) {
+    std::vector<scaled_point<Dim>> rest(points);
+    for (auto& x : rest)
+        for (std::size_t axis = 0; axis < std::size_t(Dim); ++axis) x[axis] -= points[0][axis];
+    double height = 0;
+    for (int direction = 0; direction < Dim; ++direction) {
+        auto const squared = [](auto const& x) {
+            double sum = 0;
+            for (double const c : x) sum += c * c;
+            return sum;
+        };
+        auto const far = *std::max_element(rest.begin(), rest.end(),
+                                           [&](auto const& a, auto const& b) { return squared(a) < squared(b); });
+        height = std::sqrt(squared(far));
+        if (!(height > 0)) return 0;
+        for (auto& x : rest) {
+            double share = 0;
+            for (std::size_t axis = 0; axis < std::size_t(Dim); ++axis) share += x[axis] * far[axis] / height / height;
+            for (std::size_t axis = 0; axis < std::size_t(Dim); ++axis) x[axis] -= share * far[axis];
+        }
+    }
+    return height;
+}
+
+/// The particles that a triangulation sees: of those at one place (up to 1e-10 of the reach) the largest alone.
+template <class Real, int Dim>
+scaled_particles<Dim> scale_particles(points_view<Real, Dim> points, Real const* radii) {
+    constexpr auto dim = std::size_t(Dim);
+    scaled_point<Dim> middle{};
+    double extent = 0, largest = 0;
+    for (std::size_t axis = 0; axis < dim; ++axis) {
+        double low = double(points(0, int(axis))), high = low;
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            low = std::min(low, double(points(i, int(axis))));
+            high = std::max(high, double(points(i, int(axis))));
+            largest = std::max(largest, double(radii[i]));
+        }
+        middle[axis] = low / 2 + high / 2;
+        extent = std::max(extent, high - low);
+    }
+    scaled_particles<Dim> all;
+    double const scale = all.scale = extent > 0 ? 1 / extent : 0;
+    all.reach = largest > 0 ? std::min(1.0, 64 * largest * scale) : 1.0;
+    auto const place = [&](std::int32_t i) {
+        scaled_point<Dim> x;
+        for (std::size_t axis = 0; axis < dim; ++axis)
+            x[axis] = (double(points(std::size_t(i), int(axis))) - middle[axis]) * scale;
+        return x;
+    };
+    auto const apart = [&](std::int32_t i, std::int32_t j) {
+        double most = 0;
+        for (int axis = 0; axis < Dim; ++axis)
+            most = std::max(most, std::fabs(double(points(std::size_t(i), axis)) - double(points(std::size_t(j), axis))));
+        return most * scale;
+    };
+
+    std::vector<std::pair<double, std::int32_t>> order;
+    for (std::int32_t i = 0; i < std::int32_t(points.size()); ++i) order.push_back({along<Dim>(place(i)), i});
+    std::sort(order.begin(), order.end());
+    double const same = 1e-10 * all.reach, rounding = 1e-15;
+    for (auto const& [key, i] : order) {
+        double const radius = double(radii[i]) * scale;
+        bool fresh = true;
+        for (std::size_t k = all.x.size(); fresh && k-- > 0 && key - along<Dim>(all.x[k]) <= 2 * same + rounding;) {
+            if (apart(i, all.particle[k]) > same) continue;
+            fresh = false;
+            if (radius > all.radius[k]) {
+                all.particle[k] = i;
+                all.radius[k] = radius;
+            }
+        }
+        if (!fresh) continue;
+        all.particle.push_back(i);
+        all.x.push_back(place(i));
+        all.radius.push_back(radius);
+    }
+    if (Dim == 3) all.nudge = 1e-7 * std::pow(double(all.x.size()), -2.0 / 3.0);
+    return all;
+}
+
+/// Particles as exact signs see them, without rounding their places.
+/// \param shift callable k -> what is added to the height of particle k of the list, m^2
+template <class Real, int Dim, class Shift>
+weighted_sites<Dim> make_sites(std::vector<std::int32_t> const& list, points_view<Real, Dim> points, Real const* radii,
+                               Shift const& shift) {
+    double largest = 0;
+    for (auto const i : list) {
+        for (int axis = 0; axis < Dim; ++axis)
+            largest = std::max(largest, std::fabs(double(points(std::size_t(i), axis))));
+        largest = std::max(largest, double(radii[i]));
+    }
+    double const scale = largest > 0 ? std::ldexp(1.0, -std::ilogb(largest) - 1) : 1;
+    // Below this products of products would be rounded.
+    auto const scaled = [&](double length) { return std::fabs(length) * scale < 0x1p-160 ? 0 : length * scale; };
+    weighted_sites<Dim> sites;
+    for (std::size_t k = 0; k < list.size(); ++k) {
+        scaled_point<Dim> x;
+        for (int axis = 0; axis < Dim; ++axis) x[std::size_t(axis)] = scaled(double(points(std::size_t(list[k]), axis)));
+        sites.x.push_back(x);
+        sites.radius.push_back(scaled(double(radii[list[k]])));
+        sites.shift.push_back(-shift(k) * scale * scale);
+    }
+    sites.scale = scale;
+    return sites;
+}
+
+/// Whether particles are too few for a simplex, or lie on one line (in space: in one plane). Where one is so far away that
+/// scaled places do not tell the others apart, exact signs have to find out.
+template <int Dim>
+bool lie_flat(scaled_particles<Dim> const& all) {
+    return all.x.size() < std::size_t(Dim) + 1 || (all.reach > 1e-5 && flatness<Dim>(all.x) < 1e-9 * all.reach);
+}
+
+/// Squares of lengths, and squares of them, have to be numbers.
+template <class Real, int Dim>
+void require_particles(points_view<Real, Dim> points, Real const* radii) {
+    constexpr double most = 1e70;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        for (int axis = 0; axis < Dim; ++axis) {
+            double const x = double(points(i, axis));
+            if (!(std::fabs(x) <= most)) {
+                require_finite("position of particle " + std::to_string(i), x);
+                refuse("position of particle " + std::to_string(i), x, "from -1e70 to 1e70 m");
+            }
+        }
+        double const r = double(radii[i]);
+        if (!(r >= 0 && r <= most)) {
+            require_not_negative("radius of particle " + std::to_string(i), r);
+            refuse("radius of particle " + std::to_string(i), r, "at most 1e70 m");
+        }
+    }
+}
+
+} // namespace lacuna::detail

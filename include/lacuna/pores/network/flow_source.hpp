@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <lacuna/core/error.hpp>
+
+namespace lacuna {
+
+/// What a flow_source prescribes: the pressure behind it, or the volume that it gives per time.
+enum class flow_source_kind : std::uint8_t { pressure, rate };
+
+/// A named place where fluid enters or leaves a pore network: a reservoir of given pressure, or a source of given rate
+/// (a sink where it is negative). It acts through the drained throats that name it, and on the pores listed here.
+/// Made by the rules and functions of pores/network/flow_boundaries.hpp.
+struct flow_source {
+    std::string name{};
+    flow_source_kind kind = flow_source_kind::pressure;
+    double value = 0;                  ///< Pa, or m^3/s into the pores; flow solvers' set_source() changes it
+    std::vector<std::int32_t> pores{}; ///< held at the pressure, or fed
+    std::vector<double> shares{};      ///< of the rate, for each of `pores`; they add up to 1
+    double volume = 0;                 ///< that has come in, m^3; negative: has gone out
+    double rate = 0;                   ///< mean of the last step in which fluid flowed, m^3/s
+};
+
+namespace detail {
+
+/// Gives the throats on the boundary their sources.
+/// \return the source of each drained throat
+/// \throws std::invalid_argument for a source that is not there, is of the other kind, or acts nowhere.
+template <class Record>
+std::vector<std::int32_t> connect_sources(std::vector<flow_source>& sources, std::vector<Record> const& records) {
+    auto const named = std::int32_t(sources.size());
+    std::vector<double> width(sources.size(), 0.0);
+    std::vector<std::int32_t> of_throat;
+    std::int32_t rest = -1;
+    for (std::size_t t = 0; t < records.size(); ++t) {
+        auto const& r = records[t];
+        bool const drained = r.rank == 1;
+        if (r.source < -1 || r.source >= named) refuse("source of a throat", double(r.source), "a flow source, or -1");
+        if (drained && r.source < 0 && rest < 0) {
+            rest = std::int32_t(sources.size());
+            sources.push_back({"drained", flow_source_kind::pressure, double(r.reservoir_pressure)});
+        }
+        if (drained) of_throat.push_back(r.source < 0 ? rest : r.source);
+        if (r.source < 0) continue;
+        auto const s = std::size_t(r.source);
+        if (r.rank == 0 || drained != (sources[s].kind == flow_source_kind::pressure))
+            refuse("source of a throat", sources[s].name,
+                   "a pressure behind a drained throat or a rate at a sealed one");
+        if (!drained) {
+            sources[s].pores.push_back(r.pore[0]);
+            sources[s].shares.push_back(r.width);
+        }
+        width[s] += r.width;
+    }
+    for (std::size_t s = 0; s < width.size(); ++s) {
+        if (!(width[s] > 0)) refuse("flow source", sources[s].name, "at some throat of the boundary");
+        for (double& share : sources[s].shares) share /= width[s];
+    }
+    return of_throat;
+}
+
+} // namespace detail
+
+} // namespace lacuna

@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <lacuna/core/error.hpp>
+#include <lacuna/core/points.hpp>
+#include <lacuna/pores/network/boundary_throat.hpp>
+#include <lacuna/pores/network/flow_source.hpp>
+#include <lacuna/pores/mesh/mesh.hpp>
+#include <lacuna/pores/network/padded_array.hpp>
+#include <lacuna/pores/network/pore_throats.hpp>
+
+namespace lacuna {
+
+/// Where a pore lies: within the body, or at its boundary; drained when at least one of its throats is.
+enum class pore_place : std::uint8_t { interior, sealed, drained };
+
+/// A throat given by hand: between two pores, or from one pore to a reservoir (second = -1).
+template <class Real>
+struct bare_throat {
+    std::int32_t first, second;
+    Real length, aperture;          ///< m, both > 0
+    Real reservoir_pressure = Real(0); ///< Pa
+    std::int32_t source = -1;          ///< as in throat_boundary
+};
+
+/// Pores and throats of a body, one array per quantity (structure of arrays).
+///
+/// A throat lies between two particles in the plane, three in space. Its pores are [0] to the left of the line from
+/// particle [0] to particle [1] (in space: the one from whose outside the particles turn counter-clockwise), and [1] on
+/// its other side, -1 where the body ends. Throats come in the order interior, drained, sealed. In a bare network the
+/// particles are -1.
+template <class Real, int Dim>
+struct pore_network {
+    std::array<padded_array<std::int32_t>, std::size_t(Dim) + 1> corner; ///< particles around a pore; empty when bare
+    /// What a pore's least volume is a share of, m^Dim: its simplex at build time, in space not less than the regular
+    /// tetrahedron on the smallest of its spheres; empty when bare.
+    padded_array<Real> size;
+    padded_array<Real> volume;     ///< V_p, m^3
+    padded_array<Real> old_volume; ///< V_p when the pressure was last advanced, m^3
+    padded_array<Real> pressure;   ///< Pa
+    /// Part of the volume that is void of liquid, at the minimum pressure, m^3; empty where the fluid never tears, see
+    /// vapour_of().
+    padded_array<Real> vapour;
+    std::vector<pore_place> place;
+
+    std::array<padded_array<std::int32_t>, std::size_t(Dim)> throat_particle;
+    std::array<padded_array<std::int32_t>, 2> throat_pore;
+    padded_array<Real> length;      ///< l, m
+    padded_array<Real> aperture;    ///< a, m
+    padded_array<Real> conductance; ///< C = k a^3 / l, m^3/(s Pa)
+    padded_array<Real> flow;        ///< q of the last step, from pore [1] (or the reservoir) to pore [0], m^3/s
+    std::vector<std::uint8_t> idle; ///< 1 where the flow is skipped
+    std::size_t interior_throats = 0;
+    std::size_t drained_throats = 0;
+    /// Of drained throats, the first of which is throat number interior_throats; see reservoir_pressure(),
+    /// throat_source().
+    std::vector<Real> drained_pressure;
+    std::vector<std::int32_t> drained_source;
+    std::vector<flow_source> sources;
+
+    pore_throats<Real> throats_of; ///< each pore
+    std::size_t particles = 0; ///< of the body, also those at no pore; 0 when bare
+
+    std::size_t pores() const noexcept { return volume.size(); }
+    std::size_t throats() const noexcept { return length.size(); }
+    /// Throats that fluid can pass: interior and drained.
+    std::size_t open_throats() const noexcept { return interior_throats + drained_throats; }
+    bool drained(std::size_t throat) const noexcept { return throat >= interior_throats && throat < open_throats(); }
+    bool bare() const noexcept { return corner[0].empty(); }
+    /// Pressure behind a drained throat, Pa; 0 of others.
+    Real reservoir_pressure(std::size_t throat) const noexcept {
+        return drained(throat) ? drained_pressure[throat - interior_throats] : Real(0);
+    }
+    /// Number in `sources` of what is behind a drained throat; -1 of others.
+    std::int32_t throat_source(std::size_t throat) const noexcept {
+        return drained(throat) ? drained_source[throat - interior_throats] : -1;
+    }
+    Real vapour_of(std::size_t pore) const noexcept { return vapour.empty() ? Real(0) : vapour[pore]; }
+    boundary_kind kind(std::size_t throat) const noexcept {
+        return throat < open_throats() ? boundary_kind::drained : boundary_kind::sealed;
+    }
+    /// What a run changes; its shape is that of the receiver.
+    template <class Archive>
+    void serialize(Archive& ar) {
+        ar(volume, old_volume, pressure, vapour, aperture, conductance, flow, fixed_length{drained_pressure}, fixed_length{idle});
+        for (auto& source : sources) ar(source.value, source.volume, source.rate);
+    }
+};
+
+namespace detail {
+
+template <class Real, int Dim>
+struct throat_record {
+    std::array<std::int32_t, std::size_t(Dim)> particle;
+    std::array<std::int32_t, 2> pore;
+    Real length, aperture, reservoir_pressure;
+    int rank; ///< 0 interior, 1 drained, 2 sealed
+    std::int32_t source = -1;
+    double width = 0; ///< of a throat on the boundary, m, in space its area, m^2
+};
+
+/// Fills in the throats, by rank and then as they come, and the arrays that every network has.
+template <class Real, int Dim>
+void finish(pore_network<Real, Dim>& net, std::vector<throat_record<Real, Dim>> const& records, std::size_t particles) {
+    for (auto const& r : records) {
+        net.interior_throats += r.rank == 0;
+        net.drained_throats += r.rank == 1;
+    }
+    std::array<std::size_t, 3> next{0, net.interior_throats, net.open_throats()};
+    std::size_t const pores = net.volume.size();
+    net.old_volume = net.volume;
+    net.pressure.assign(pores, Real(0));
+    net.vapour.assign(pores, Real(0));
+    net.place.assign(pores, pore_place::interior);
+    for (auto& column : net.throat_particle) column.assign(records.size(), 0);
+    for (auto& column : net.throat_pore) column.assign(records.size(), 0);
+    net.length.assign(records.size(), Real(0));
+    net.aperture.assign(records.size(), Real(0));
+    for (auto const& r : records) {
+        std::size_t const t = next[std::size_t(r.rank)]++;
+        for (std::size_t side = 0; side < r.particle.size(); ++side) net.throat_particle[side][t] = r.particle[side];
+        for (std::size_t side = 0; side < 2; ++side) net.throat_pore[side][t] = r.pore[side];
+        net.length[t] = r.length;
+        net.aperture[t] = r.aperture;
+        auto& place = net.place[std::size_t(r.pore[0])];
+        if (r.rank == 1) place = pore_place::drained;
+        if (r.rank == 2 && place == pore_place::interior) place = pore_place::sealed;
+        if (r.rank == 1) net.drained_pressure.push_back(r.reservoir_pressure);
+    }
+    net.drained_source = connect_sources(net.sources, records);
+    net.conductance.assign(records.size(), Real(0));
+    net.flow.assign(records.size(), Real(0));
+    net.idle.assign(records.size(), 0);
+    net.throats_of.build(net.throat_pore, pores);
+    net.particles = particles;
+}
+
+} // namespace detail
+
+namespace detail {
+
+/// Names the corners of a simplex that has no size.
+template <std::size_t Corners, class Real, int Dim>
+[[noreturn]] void refuse_flat(std::array<std::int32_t, Corners> const& corners, points_view<Real, Dim> points,
+                              double size) {
+    std::string who;
+    for (auto const i : corners) {
+        who.append(who.empty() ? "" : ", ").append(std::to_string(i)).append(" at (");
+        for (int axis = 0; axis < Dim; ++axis)
+            who.append(axis == 0 ? "" : ", ").append(to_text(double(points(std::size_t(i), axis))));
+        who.append(")");
+    }
+    refuse("size of the pore between the particles " + who + " m", size,
+           std::string("> 0: in their order the corners of a mesh turn counter-clockwise, and are not on a ") +
+               (Dim == 2 ? "line" : "plane"));
+}
+
+} // namespace detail
+
+/// The pores and throats of a body. In the plane each triangle is a pore, each edge a throat of length r_i + r_j; in
+/// space each tetrahedron is a pore, each facet a throat, as long as the mean of r_i + r_j over its three edges. Volumes
+/// and apertures are left at 0 for the flow solver to fill in.
+///
+/// \param mesh from triangulate_body()
+/// \param points centres of all particles, m; \param radii theirs, m, > 0 at every corner of the mesh
+/// \param boundary callable boundary_throat -> throat_boundary, asked once for every throat on the boundary; what its
+///        member sources() returns, if it has one, becomes the network's `sources` (see flow_boundaries())
+/// \throws std::invalid_argument for a corner that is no particle, a simplex without size, a radius or a pressure out of
+///         range, a source that acts on no throat.
+template <class Real, int Dim, class Boundary = all_sealed>
+pore_network<Real, Dim> make_pore_network(pore_mesh<Dim> const& mesh, points_view<Real, Dim> points, Real const* radii,
+                                          Boundary const& boundary = {}) {
+    pore_network<Real, Dim> net;
+    net.volume.assign(mesh.size(), Real(0));
+    net.size.assign(mesh.size(), Real(0));
+    for (auto& column : net.corner) column.assign(mesh.size(), 0);
+    vec<Real, Dim> low{}, high{};
+    for (std::size_t t = 0; t < mesh.size(); ++t)
+        for (std::size_t c = 0; c <= Dim; ++c) {
+            auto const i = mesh.simplices[t][c];
+            if (i < 0 || std::size_t(i) >= points.size())
+                refuse((Dim == 2 ? "corner of triangle " : "corner of tetrahedron ") + std::to_string(t),
+                       std::to_string(i), "the number of a particle");
+            require_positive("radius of particle " + std::to_string(i), double(radii[i]));
+            net.corner[c][t] = i;
+            auto const x = points[std::size_t(i)];
+            for (int axis = 0; axis < Dim; ++axis) {
+                low[axis] = t + c == 0 ? x[axis] : min(low[axis], x[axis]);
+                high[axis] = t + c == 0 ? x[axis] : max(high[axis], x[axis]);
+            }
+        }
+    auto const has_throat = [&](std::size_t t, std::size_t c) {
+        auto const other = mesh.neighbours[t][c];
+        return other < 0 || std::size_t(other) > t;
+    };
+    std::size_t throats = 0;
+    for (std::size_t t = 0; t < mesh.size(); ++t)
+        for (std::size_t c = 0; c <= Dim; ++c) throats += has_throat(t, c);
+    std::vector<detail::throat_record<Real, Dim>> records;
+    records.reserve(throats);
+    for (std::size_t t = 0; t < mesh.size(); ++t) {
+        auto const& corners = mesh.simplices[t];
+        net.size[t] = detail::reference_size(corners, points, radii);
+        if (!(net.size[t] > Real(0))) detail::refuse_flat(corners, points, double(net.size[t]));
+        for (std::size_t c = 0; c <= Dim; ++c) {
+            if (!has_throat(t, c)) continue;
+            auto const other = mesh.neighbours[t][c];
+            auto const around = detail::side_of(corners, c);
+            Real length(0);
+            for (auto const i : around) length += radii[i];
+            throat_boundary<Real> end;
+            double width = 0;
+            if (other < 0) {
+                auto const side = detail::look_outwards(around, points);
+                end = boundary(boundary_throat<Real, Dim>{
+                    around, side.middle, side.normal, detail::nearest_side(side.middle, side.normal, low, high)});
+                require_finite("reservoir pressure", double(end.pressure));
+                width = double(side.size);
+            }
+            int const rank = other >= 0 ? 0 : end.kind == boundary_kind::drained ? 1 : 2;
+            records.push_back({around, {std::int32_t(t), other}, length * Real(2.0 / Dim), Real(0), end.pressure, rank,
+                               end.source, width});
+        }
+    }
+    if constexpr (requires { boundary.sources(); }) net.sources = boundary.sources();
+    detail::finish(net, records, points.size());
+    return net;
+}
+
+/// A network without particles: rigid pores of the given volumes, throats of constant aperture.
+/// \param volumes m^3, > 0; \param sources that throats to reservoirs name
+/// \throws std::invalid_argument for a value out of range, or a throat's end that is no pore.
+template <class Real, int Dim = 2>
+pore_network<Real, Dim> make_bare_network(std::vector<Real> const& volumes,
+                                          std::vector<bare_throat<Real>> const& throats,
+                                          std::vector<flow_source> sources = {}) {
+    pore_network<Real, Dim> net;
+    for (std::size_t p = 0; p < volumes.size(); ++p)
+        require_positive("volume of pore " + std::to_string(p), double(volumes[p]));
+    net.volume = padded_array<Real>(volumes);
+    std::vector<detail::throat_record<Real, Dim>> records;
+    for (std::size_t t = 0; t < throats.size(); ++t) {
+        auto const& one = throats[t];
+        std::string const name = "throat " + std::to_string(t);
+        auto const count = std::int32_t(volumes.size());
+        if (one.first < 0 || one.first >= count) refuse(name + ".first", one.first, "a pore");
+        if (one.second < -1 || one.second >= count || one.second == one.first)
+            refuse(name + ".second", one.second, "another pore, or -1 for a reservoir");
+        require_positive(name + ".length", double(one.length));
+        require_positive(name + ".aperture", double(one.aperture));
+        require_finite(name + ".reservoir_pressure", double(one.reservoir_pressure));
+        std::array<std::int32_t, std::size_t(Dim)> nobody;
+        nobody.fill(-1);
+        records.push_back({nobody, {one.first, one.second}, one.length, one.aperture, one.reservoir_pressure,
+                           one.second < 0 ? 1 : 0, one.source, 1.0});
+    }
+    net.sources = std::move(sources);
+    detail::finish(net, records, 0);
+    return net;
+}
+
+/// Middle of a pore, the mean of its corners, m: where pictures put its pressure.
+template <class Real, int Dim>
+vec<Real, Dim> pore_middle(pore_network<Real, Dim> const& net, std::size_t pore, points_view<Real, Dim> points) {
+    vec<Real, Dim> sum{};
+    for (auto const& corner : net.corner) sum += points[std::size_t(corner[pore])];
+    return sum / Real(Dim + 1);
+}
+
+} // namespace lacuna

@@ -1,0 +1,293 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include <lacuna/core/points.hpp>
+#include <lacuna/pores/mesh/geometry.hpp>
+#include <lacuna/pores/network/pore_network.hpp>
+
+namespace lacuna {
+
+/// What carry_fluid() did. The fluid content of a pore is V p / K_f - W, W its vapour: what the pressure holds beyond a
+/// pore filled at zero pressure, as eq. 15 counts it.
+struct carried_fluid {
+    std::size_t kept = 0;    ///< pores of both meshes
+    std::size_t changed = 0; ///< pores of the new mesh alone
+    std::size_t regions = 0; ///< of changed pores
+    double content = 0;      ///< sum of |V p / K_f| + W of the old pores, m^3: the scale of `residual`
+    double residual = 0;     ///< content that rounding made or took, m^3
+    double lost = 0;         ///< content of pores that went away with all their neighbours, m^3
+    /// Volume of the new pores less that of the old ones, m^3: rounding, but where the boundary has moved or pores were
+    /// at their least volume, which is more than they have.
+    double volume = 0;
+};
+
+namespace detail {
+
+/// Area that two triangles have in common, both counter-clockwise: one is clipped at the sides of the other
+/// (I. E. Sutherland, G. W. Hodgman, Reentrant polygon clipping, Comm. ACM 17 (1974) 32).
+template <class Real>
+Real common_area(std::array<vec<Real, 2>, 3> const& one, std::array<vec<Real, 2>, 3> const& other) noexcept {
+    std::array<vec<Real, 2>, 9> polygon, next;
+    // Seen from a corner, so that little is lost to rounding far from the origin.
+    auto const origin = other[0];
+    std::size_t count = 3;
+    for (std::size_t c = 0; c < 3; ++c) polygon[c] = one[c] - origin;
+    for (std::size_t side = 0; side < 3; ++side) {
+        auto const from = other[side] - origin, along = other[(side + 1) % 3] - other[side];
+        std::size_t kept = 0;
+        for (std::size_t k = 0; k < count; ++k) {
+            auto const &p = polygon[k], &q = polygon[(k + 1) % count];
+            Real const at_p = cross(along, p - from), at_q = cross(along, q - from);
+            if (at_p >= Real(0)) next[kept++] = p;
+            if ((at_p >= Real(0)) != (at_q >= Real(0))) next[kept++] = p + (q - p) * (at_p / (at_p - at_q));
+        }
+        polygon = next;
+        count = kept;
+        if (count < 3) return Real(0);
+    }
+    Real twice(0);
+    for (std::size_t k = 1; k + 1 < count; ++k) twice += cross(polygon[k] - polygon[0], polygon[k + 1] - polygon[0]);
+    return max(twice / Real(2), Real(0));
+}
+
+/// By which the pores of a network are in ascending order.
+template <class Real>
+std::array<std::int32_t, 3> corners(pore_network<Real, 2> const& net, std::size_t pore) noexcept {
+    return {net.corner[0][pore], net.corner[1][pore], net.corner[2][pore]};
+}
+
+/// A changed pore as a triangle, turned back if it has turned over, with its extent in x.
+template <class Real>
+struct changed_pore {
+    std::size_t pore;
+    std::array<vec<Real, 2>, 3> x;
+    Real low, high, area;
+};
+
+template <class Real>
+changed_pore<Real> look_at(pore_network<Real, 2> const& net, std::size_t pore, points_view<Real, 2> points) {
+    auto const at = [&](std::size_t c) { return points[std::size_t(net.corner[c][pore])]; };
+    changed_pore<Real> p{pore, {at(0), at(1), at(2)}, 0, 0, triangle_area(at(0), at(1), at(2))};
+    if (p.area < Real(0)) {
+        std::swap(p.x[1], p.x[2]);
+        p.area = -p.area;
+    }
+    p.low = min(p.x[0][0], min(p.x[1][0], p.x[2][0]));
+    p.high = max(p.x[0][0], max(p.x[1][0], p.x[2][0]));
+    return p;
+}
+
+inline std::size_t find_root(std::vector<std::size_t>& up, std::size_t k) noexcept {
+    while (up[k] != k) k = up[k] = up[up[k]];
+    return k;
+}
+inline void unite(std::vector<std::size_t>& up, std::size_t a, std::size_t b) noexcept {
+    a = find_root(up, a);
+    b = find_root(up, b);
+    up[std::max(a, b)] = std::min(a, b);
+}
+
+/// Flows of throats between the same particles, and what sources of the same name prescribe and have brought.
+template <class Real>
+void carry_throats(pore_network<Real, 2> const& from, pore_network<Real, 2>& to) {
+    struct place {
+        std::int32_t low, high;
+        std::size_t throat;
+        bool operator<(place const& o) const noexcept { return low != o.low ? low < o.low : high < o.high; }
+    };
+    auto const place_of = [](pore_network<Real, 2> const& net, std::size_t t) {
+        auto const i = net.throat_particle[0][t], j = net.throat_particle[1][t];
+        return place{std::min(i, j), std::max(i, j), t};
+    };
+    std::vector<place> known;
+    for (std::size_t t = 0; t < from.open_throats(); ++t) known.push_back(place_of(from, t));
+    std::sort(known.begin(), known.end());
+    for (std::size_t t = 0; t < to.open_throats(); ++t) {
+        auto const wanted = place_of(to, t);
+        auto const found = std::lower_bound(known.begin(), known.end(), wanted);
+        if (found == known.end() || wanted < *found) continue;
+        bool const same_way = from.throat_particle[0][found->throat] == to.throat_particle[0][t];
+        to.flow[t] = same_way ? from.flow[found->throat] : -from.flow[found->throat];
+    }
+    for (std::size_t s = 0; s < to.sources.size(); ++s)
+        for (auto const& old : from.sources) {
+            auto& now = to.sources[s];
+            if (old.name != now.name || old.kind != now.kind) continue;
+            now.volume = old.volume;
+            now.rate = old.rate;
+            if (now.value == old.value) continue;
+            now.value = old.value;
+            for (std::size_t t = to.interior_throats; now.kind == flow_source_kind::pressure && t < to.open_throats();
+                 ++t)
+                if (to.throat_source(t) == std::int32_t(s)) to.drained_pressure[t - to.interior_throats] = Real(now.value);
+        }
+}
+
+} // namespace detail
+
+/// Gives pores that are in both networks the size that they were built with: their least volume goes by it.
+template <class Real>
+void keep_sizes(pore_network<Real, 2> const& from, pore_network<Real, 2>& to) {
+    std::size_t a = 0;
+    for (std::size_t b = 0; b < to.pores(); ++b) {
+        auto const wanted = detail::corners(to, b);
+        while (a < from.pores() && detail::corners(from, a) < wanted) ++a;
+        if (a < from.pores() && detail::corners(from, a) == wanted) to.size[b] = from.size[a];
+    }
+}
+
+/// Carries the fluid of a network over to that of a new mesh of the same particles at the same places.
+///
+/// A pore of both meshes keeps its volumes, its pressure and its vapour, to the bit. The other pores fall into regions:
+/// old and new ones that overlap. In a region a new pore takes the mean of the old pressures, weighted with the areas
+/// that it covers; then all of them are shifted by the same pressure, such that the region's content is what it was. So
+/// a uniform pressure stays uniform where the volume of the region is the same. At the boundary of the body a region
+/// may gain or lose area: its content stays. A region without new pores gives its content to the pores next to it; a
+/// new pore where none was starts at zero pressure.
+///
+/// \param to network of the new mesh, with volumes, apertures and conductances; gets the fluid, and the flows of the
+///        throats that it has in common with `from`, and what sources of the same name prescribe and have brought
+/// \param bulk_modulus K_f, Pa; \param minimum_pressure Pa
+template <class Real>
+carried_fluid carry_fluid(pore_network<Real, 2> const& from, pore_network<Real, 2>& to, points_view<Real, 2> points,
+                          double bulk_modulus, double minimum_pressure) {
+    using namespace detail;
+    constexpr auto none = std::size_t(-1);
+    carried_fluid report;
+    // Pores are in the order of their corners. Nodes of the regions: all old pores, then all new ones.
+    std::vector<std::size_t> twin(to.pores(), none), heir(from.pores(), none);
+    std::vector<changed_pore<Real>> gone, fresh;
+    std::size_t a = 0, b = 0;
+    while (a < from.pores() || b < to.pores()) {
+        bool const old_first = b == to.pores() || (a < from.pores() && corners(from, a) < corners(to, b));
+        bool const new_first = a == from.pores() || (b < to.pores() && corners(to, b) < corners(from, a));
+        if (old_first) {
+            gone.push_back(look_at(from, a++, points));
+        } else if (new_first) {
+            fresh.push_back(look_at(to, b++, points));
+        } else {
+            to.volume[b] = from.volume[a];
+            to.old_volume[b] = from.old_volume[a];
+            to.pressure[b] = from.pressure[a];
+            if (!to.vapour.empty()) to.vapour[b] = from.vapour_of(a);
+            twin[b] = a;
+            heir[a++] = b++;
+        }
+    }
+    report.kept = to.pores() - fresh.size();
+    report.changed = fresh.size();
+
+    std::size_t const offset = from.pores();
+    std::vector<std::size_t> up(offset + to.pores());
+    std::iota(up.begin(), up.end(), std::size_t(0));
+    std::vector<double> area(to.pores(), 0), sum(to.pores(), 0);
+    auto const by_low = [](auto const& p, auto const& q) { return p.low != q.low ? p.low < q.low : p.pore < q.pore; };
+    std::sort(gone.begin(), gone.end(), by_low);
+    std::sort(fresh.begin(), fresh.end(), by_low);
+    Real widest(0);
+    for (auto const& p : gone) widest = max(widest, p.high - p.low);
+    std::size_t start = 0;
+    for (auto const& q : fresh) {
+        while (start < gone.size() && gone[start].low + widest < q.low) ++start;
+        for (std::size_t k = start; k < gone.size() && gone[k].low <= q.high; ++k) {
+            auto const& p = gone[k];
+            if (p.high < q.low) continue;
+            Real const common = common_area(p.x, q.x);
+            if (!(common > Real(1e-9) * min(p.area, q.area))) continue;
+            area[q.pore] += double(common);
+            sum[q.pore] += double(common) * double(from.pressure[p.pore]);
+            unite(up, p.pore, offset + q.pore);
+        }
+    }
+
+    // What is left without a new pore goes to the neighbours, to theirs if they are gone as well.
+    std::vector<std::uint8_t> has_new(up.size());
+    auto const mark = [&] {
+        std::fill(has_new.begin(), has_new.end(), std::uint8_t(0));
+        for (std::size_t q = 0; q < to.pores(); ++q) has_new[find_root(up, offset + q)] = 1;
+    };
+    mark();
+    bool moved = true;
+    while (moved) {
+        moved = false;
+        for (auto const& p : gone) {
+            if (has_new[find_root(up, p.pore)]) continue;
+            from.throats_of.for_each(p.pore, [&](std::size_t t, int side) {
+                auto const other = from.throat_pore[std::size_t(1 - side)][t];
+                if (other < 0) return;
+                auto const next =
+                    heir[std::size_t(other)] == none ? std::size_t(other) : offset + heir[std::size_t(other)];
+                if (find_root(up, next) == find_root(up, p.pore)) return;
+                unite(up, p.pore, next);
+                moved = true;
+            });
+        }
+        if (moved) mark();
+    }
+
+    struct region {
+        double content = 0, guess = 0, volume = 0, old_volume = 0, scale = 0;
+        bool real = false;
+    };
+    std::vector<region> regions(up.size());
+    for (auto const& p : gone) {
+        auto& r = regions[find_root(up, p.pore)];
+        double const filled = double(from.old_volume[p.pore]) * double(from.pressure[p.pore]);
+        double const vapour = bulk_modulus * double(from.vapour_of(p.pore));
+        r.content += filled - vapour;
+        r.scale += std::fabs(filled) + vapour;
+        r.old_volume += double(from.old_volume[p.pore]);
+        r.real = true;
+    }
+    for (auto const& q : fresh) regions[find_root(up, offset + q.pore)].real = true;
+    std::vector<std::size_t> touched;
+    for (std::size_t q = 0; q < to.pores(); ++q) {
+        auto& r = regions[find_root(up, offset + q)];
+        if (!r.real) continue;
+        touched.push_back(q);
+        double const volume = double(to.old_volume[q]);
+        double pressure = area[q] > 0 ? sum[q] / area[q] : 0;
+        if (twin[q] != none) { // a neighbour of a region that has no new pores
+            pressure = double(to.pressure[q]);
+            double const vapour = bulk_modulus * double(to.vapour_of(q));
+            r.content += volume * pressure - vapour;
+            r.scale += std::fabs(volume * pressure) + vapour;
+            r.old_volume += volume;
+        }
+        to.pressure[q] = Real(pressure);
+        r.guess += volume * double(to.pressure[q]);
+        r.volume += volume;
+    }
+    for (std::size_t q : touched) {
+        auto const& r = regions[find_root(up, offset + q)];
+        double const volume = double(to.old_volume[q]);
+        double const wanted = double(to.pressure[q]) + (r.content - r.guess) / r.volume;
+        bool const torn = wanted < minimum_pressure;
+        to.pressure[q] = Real(torn ? minimum_pressure : wanted);
+        if (!to.vapour.empty()) to.vapour[q] = Real(torn ? (minimum_pressure - wanted) * volume / bulk_modulus : 0);
+        report.residual += (volume * double(to.pressure[q])) / bulk_modulus - double(to.vapour_of(q));
+        report.volume += volume;
+    }
+    for (auto const& r : regions) {
+        if (!r.real) continue;
+        ++report.regions;
+        report.volume -= r.old_volume;
+        (r.volume > 0 ? report.residual : report.lost) += (r.volume > 0 ? -1 : 1) * r.content / bulk_modulus;
+    }
+    for (std::size_t p = 0; p < from.pores(); ++p)
+        report.content += std::fabs(double(from.old_volume[p]) * double(from.pressure[p])) / bulk_modulus +
+                          double(from.vapour_of(p));
+    carry_throats(from, to);
+    return report;
+}
+
+} // namespace lacuna
