@@ -3,6 +3,7 @@
 
 #include <cstdio>
 
+#include "particle_kinds.hpp"
 #include "specimen/cartilage_specimen.hpp"
 
 namespace cartilage {
@@ -56,10 +57,11 @@ lacuna::scene scene_of(specimen const& s, options const& o) {
     picture.right = s.right;
     picture.bottom = 0;
     picture.top = s.height;
+    picture.kinds = particle_kinds();
     picture.particles.resize(s.discs.size());
     for (std::size_t i = 0; i < s.discs.size(); ++i)
         picture.particles[i] = {s.discs.position[i], s.discs.radius[i],
-                                s.fibre[i] >= 0 ? scene::particle_kind::fibre : scene::particle_kind::free};
+                                s.fibre[i] >= 0 ? fibre_particle : free_particle};
     for (auto const& bond : s.discs.bonds)
         picture.bonds.push_back({s.discs.position[std::size_t(bond[0])], s.discs.position[std::size_t(bond[1])]});
     for (auto i : s.loaded) picture.loads.push_back({s.discs.position[std::size_t(i)], {0, -1}});

@@ -40,7 +40,7 @@ json json_of(lacuna::scene const& s) {
     j["captions"] = s.captions;
     j["particles"] = flat(s.particles, [](json& list, auto const& p) {
         for (double const v : {p.position[0], p.position[1], p.radius}) list.push_back(v);
-        list.push_back(int(p.kind));
+        list.push_back(p.kind);
     });
     j["bonds"] = flat(s.bonds, [](json& list, auto const& b) {
         for (double const v : {b.from[0], b.from[1], b.to[0], b.to[1]}) list.push_back(v);

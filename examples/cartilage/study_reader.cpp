@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "kept_value.hpp"
+#include "particle_kinds.hpp"
 
 namespace cartilage {
 
@@ -75,6 +76,7 @@ std::vector<lacuna::scene::wall> read_segments(kept_value const& list) {
 lacuna::scene read_scene(kept_value const& j) {
     using lacuna::scene;
     scene s;
+    s.kinds = particle_kinds();
     auto const frame = j["frame"].numbers(4, false);
     s.left = frame[0], s.bottom = frame[1], s.right = frame[2], s.top = frame[3];
     if (!(s.right > s.left && s.top > s.bottom)) j["frame"].refuse("left, bottom, right, top of a frame with a width and a height");
@@ -84,8 +86,7 @@ lacuna::scene read_scene(kept_value const& j) {
     j["captions"].each([&](kept_value const& c) { s.captions.push_back(c.text()); });
     auto const at = [](auto const& v, std::size_t k) { return scene::point{v(k).number(), v(k + 1).number()}; };
     j["particles"].each_row(4, [&](auto const& v) {
-        int const last = int(scene::particle_kind::chondrocyte);
-        s.particles.push_back({at(v, 0), v(2).positive(), scene::particle_kind(v(3).whole(0, last))});
+        s.particles.push_back({at(v, 0), v(2).positive(), v(3).whole(0, int(fibre_particle))});
     });
     j["bonds"].each_row(4, [&](auto const& v) { s.bonds.push_back({at(v, 0), at(v, 2)}); });
     j["cracks"].each_row(5, [&](auto const& v) {

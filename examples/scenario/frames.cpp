@@ -82,6 +82,7 @@ void write_vtk(results& out, frame_data const& f, scenario const& s, journal con
 void write_picture(results const& out, frame_data const& f, scenario const& s, journal const& j) {
     using lacuna::scene;
     scene picture;
+    picture.kinds = {{"free particle"}, {"bonded particle", {0.83, 0.16, 0.15}, {0.86, 0.86, 0.87}}};
     std::vector<char> bonded(f.position.size(), 0);
     for (pair const& p : s.joints.pairs)
         for (auto const id : p) bonded[std::size_t(id)] = 1;
@@ -92,7 +93,7 @@ void write_picture(results const& out, frame_data const& f, scenario const& s, j
         picture.bottom = k == 0 ? y - r : std::min(picture.bottom, y - r);
         picture.top = k == 0 ? y + r : std::max(picture.top, y + r);
         picture.particles.push_back({{f.position[k][0], f.position[k][1]}, r,
-                                     bonded[k] ? scene::particle_kind::fibre : scene::particle_kind::free});
+                                     bonded[k]});
     }
     auto const at = [&](std::int32_t id) -> scene::point {
         return {f.position[std::size_t(id)][0], f.position[std::size_t(id)][1]};

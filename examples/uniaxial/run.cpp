@@ -111,7 +111,7 @@ lacuna::scene scene_of(simulation const& sim, lacuna::crack_record<lacuna::break
     for (std::size_t k = 0; k < sim.size(); ++k) {
         auto const x = sim.position(k);
         double const r = sim.radius(k);
-        s.particles.push_back({x, r, lacuna::scene::particle_kind::free});
+        s.particles.push_back({x, r});
         s.left = std::min(s.left, x[0] - r);
         s.right = std::max(s.right, x[0] + r);
         s.bottom = std::min(s.bottom, x[1] - r);

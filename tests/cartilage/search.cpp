@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "cartilage/particle_kinds.hpp"
 #include "cartilage/search.hpp"
 #include "cartilage/study_json.hpp"
 
@@ -271,7 +272,7 @@ TEST_CASE("A study as text is the same study, bit for bit") {
     shot.fronts = {{1e-10 / 3, 2, {5e-6, 15e-6}, {-1e6 / 3, 0}, {2e5 / 3, -0.0}}};
     shot.damage.right = 1.2e-4;
     shot.damage.top = 3e-4 / 7;
-    shot.damage.particles = {{{1e-6 / 3, 2e-6}, 1.5e-6, lacuna::scene::particle_kind::fibre}};
+    shot.damage.particles = {{{1e-6 / 3, 2e-6}, 1.5e-6, cartilage::fibre_particle}};
     shot.damage.bonds = {{{0, 1}, {2, 1.0 / 3}}};
     shot.damage.cracks = {{{1, 2}, {0, 1}, lacuna::scene::break_mode::shear}};
     shot.damage.pores = {{{1, 2}, -1e5 / 3}};

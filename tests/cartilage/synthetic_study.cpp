@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "synthetic_study.hpp"
 
+#include "cartilage/particle_kinds.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <random>
@@ -69,11 +71,11 @@ snapshot make_snapshot(std::mt19937_64& random, lacuna::cartilage_zone zone, cha
     s.damage.title = "Synthetic";
     s.damage.subtitle = "no run made this";
     s.damage.load_label = "load";
+    s.damage.kinds = cartilage::particle_kinds();
     for (int i = 0; i < 30; ++i)
         for (int j = 0; j < 75; ++j) {
             lacuna::vec<double, 2> const at{(4 * i + 2) * 1e-6, (4 * j + 2) * 1e-6};
-            using kind = lacuna::scene::particle_kind;
-            s.damage.particles.push_back({at, 1.9e-6, j % 4 == 0 ? kind::fibre : kind::free});
+            s.damage.particles.push_back({at, 1.9e-6, j % 4 == 0 ? cartilage::fibre_particle : cartilage::free_particle});
             s.damage.pores.push_back({at + lacuna::vec<double, 2>{2e-6, 2e-6}, 1e6 * uniform(random)});
         }
     for (study_crack const& c : s.run.cracks) s.damage.cracks.push_back({{c.x, c.y}, {1, 0}, {}});

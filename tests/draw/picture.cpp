@@ -17,11 +17,11 @@ lacuna::scene small_scene() {
     lacuna::scene s;
     s.right = 40e-6;
     s.top = 20e-6;
-    using kind = lacuna::scene::particle_kind;
-    s.particles = {{{5e-6, 5e-6}, 4e-6, kind::fibre},
-                   {{13e-6, 5e-6}, 4e-6, kind::fibre},
-                   {{5e-6, 15e-6}, 4e-6, kind::free},
-                   {{30e-6, 12e-6}, 4e-6, kind::free}};
+    s.kinds = {{"free"}, {"bonded", {0.83, 0.16, 0.15}, {0.86, 0.86, 0.87}}};
+    s.particles = {{{5e-6, 5e-6}, 4e-6, 1},
+                   {{13e-6, 5e-6}, 4e-6, 1},
+                   {{5e-6, 15e-6}, 4e-6, 0},
+                   {{30e-6, 12e-6}, 4e-6, 0}};
     s.cracks = {{{9e-6, 5e-6}, {1, 0}, lacuna::scene::break_mode::tension}};
     s.pores = {{{20e-6, 12e-6}, 0}, {{24e-6, 16e-6}, 2e6}};
     return s;
@@ -75,12 +75,12 @@ bool close(lacuna::color const& a, lacuna::color const& b) {
 } // namespace
 
 TEST_CASE("the packing picture has each particle in its place and colour") {
-    lacuna::picture_style const style;
+    auto const kinds = small_scene().kinds;
     drawn const picture(small_scene(), [](lacuna::canvas& c, lacuna::scene const& s) { lacuna::draw_packing(c, s); });
-    CHECK(close(picture(5e-6, 5e-6), style.fibre));
-    CHECK(close(picture(13e-6, 7e-6), style.fibre));
-    CHECK(close(picture(5e-6, 15e-6), style.free));
-    CHECK(close(picture(30e-6, 15.5e-6), style.free));
+    CHECK(close(picture(5e-6, 5e-6), kinds[1].fill));
+    CHECK(close(picture(13e-6, 7e-6), kinds[1].fill));
+    CHECK(close(picture(5e-6, 15e-6), kinds[0].fill));
+    CHECK(close(picture(30e-6, 15.5e-6), kinds[0].fill));
     CHECK(close(picture(30e-6, 17e-6), {1, 1, 1}));
     CHECK(close(picture(22e-6, 4e-6), {1, 1, 1}));
 }
@@ -132,8 +132,8 @@ TEST_CASE("loads, walls, zones and words stand around the body, where there is r
         CHECK(full.dark(page.frame.right + 20, page.frame.right + 25, at[1] - 2, at[1] + 2) > 0);
         CHECK(full.dark(page.frame.right + 30, page.frame.right + 100, at[1] - 12, at[1] + 12) > 20);
     }
-    CHECK_FALSE(close(full(7e-6, 5e-6), style.fibre));
-    CHECK(close(plain(7e-6, 5e-6), style.fibre));
+    CHECK_FALSE(close(full(7e-6, 5e-6), small_scene().kinds[1].fill));
+    CHECK(close(plain(7e-6, 5e-6), small_scene().kinds[1].fill));
 }
 
 TEST_CASE("words stand to the right of their place, about it, or to its left") {
@@ -202,6 +202,9 @@ TEST_CASE("an impossible scene is refused by name") {
     lacuna::scene s = small_scene();
     s.particles[1].radius = 0;
     CHECK_THROWS_WITH(lacuna::layout_of(s, {}), contains_text("scene.particles.radius"));
+    s = small_scene();
+    s.particles.back().kind = 2;
+    CHECK_THROWS_WITH(lacuna::layout_of(s, {}), contains_text("scene.particles.kind"));
     lacuna::scene flat = small_scene();
     flat.top = flat.bottom;
     CHECK_THROWS_WITH(lacuna::layout_of(flat, {}), contains_text("scene.top - bottom"));

@@ -25,9 +25,7 @@ struct picture_style {
     double side_column = 240;   ///< width of the column of words with legend and colour bar
     double dash_length = 1.7;   ///< broken bonds, in mean particle radii
     color ink{0.13, 0.13, 0.15};
-    color fibre{0.83, 0.16, 0.15};
-    color free{0.40, 0.60, 0.86};
-    color chondrocyte{0.95, 0.75, 0.25};
+    color bond{0.2905, 0.056, 0.0525};
     color tension{0.90, 0.05, 0.05};
     color shear{0.85, 0.05, 0.60};
 
@@ -38,7 +36,7 @@ struct picture_style {
         require_positive("picture_style.text_size", text_size);
         require_positive("picture_style.side_column", side_column);
         require_positive("picture_style.dash_length", dash_length);
-        for (auto const& c : {ink, fibre, free, chondrocyte, tension, shear})
+        for (auto const& c : {ink, bond, tension, shear})
             for (double const part : {c.red, c.green, c.blue}) require_in("picture_style.color", part, 0, 1);
     }
 };
@@ -81,12 +79,12 @@ inline picture_layout layout_of(scene const& s, picture_style const& style) {
 
 namespace detail {
 
-inline void add_particles(canvas& page, scene const& s, scene::particle_kind kind, double shrink = 1) {
+inline void add_particles(canvas& page, scene const& s, int kind, double shrink = 1) {
     for (scene::particle const& p : s.particles)
         if (p.kind == kind) page.add_disc(page.page(p.position), shrink * p.radius * page.scale());
 }
 
-inline bool has_kind(scene const& s, scene::particle_kind kind) {
+inline bool has_kind(scene const& s, int kind) {
     return std::any_of(s.particles.begin(), s.particles.end(),
                        [kind](scene::particle const& p) { return p.kind == kind; });
 }
@@ -155,26 +153,23 @@ inline double draw_captions(canvas& page, scene const& s, picture_style const& s
 
 } // namespace detail
 
-/// The specimen as in Figure 9: bonded fibre particles red, free particles blue, loads, support, walls.
+/// The specimen as in Figure 9 of the paper: particles by their kinds, bonds, loads, support, walls.
 inline void draw_packing(canvas& page, scene const& s, picture_style const& style = {}) {
     picture_layout const layout = layout_of(s, style);
     page.set_world(layout.world, layout.frame);
     page.clear({1, 1, 1});
     std::vector<legend_entry> legend;
-    auto const draw_kind = [&](scene::particle_kind kind, color const& c, char const* name) {
-        if (!detail::has_kind(s, kind)) return;
+    for (int kind = 0; kind < int(s.kinds.size()); ++kind) {
+        if (!detail::has_kind(s, kind)) continue;
+        auto const& [name, fill, behind] = s.kinds[std::size_t(kind)];
         detail::add_particles(page, s, kind, 0.97);
-        page.fill_and_stroke(c, mix(c, {0, 0, 0}, 0.45), 0.7);
-        legend.push_back({legend_mark::disc, c, name});
-    };
-    draw_kind(scene::particle_kind::free, style.free, "free particle");
-    draw_kind(scene::particle_kind::chondrocyte, style.chondrocyte, "chondrocyte");
-    draw_kind(scene::particle_kind::fibre, style.fibre, "bonded fibre particle");
+        page.fill_and_stroke(fill, mix(fill, {0, 0, 0}, 0.45), 0.7);
+        legend.push_back({legend_mark::disc, fill, name});
+    }
     if (!s.bonds.empty()) {
-        color const bond_ink = mix(style.fibre, {0, 0, 0}, 0.65);
         detail::add_bonds(page, s);
-        page.stroke(bond_ink, 1.8);
-        legend.push_back({legend_mark::line, bond_ink, "bond"});
+        page.stroke(style.bond, 1.8);
+        legend.push_back({legend_mark::line, style.bond, "bond"});
     }
     detail::draw_surroundings(page, s, style, layout);
     detail::draw_zones(page, s, style, layout);
@@ -192,11 +187,9 @@ inline void draw_damage(canvas& page, scene const& s, picture_style const& style
     page.clear({1, 1, 1});
     page.clip({layout.frame.left - 4, layout.frame.low - 30, layout.frame.right + 4, layout.frame.high + 4});
 
-    color const faint{0.955, 0.955, 0.96};
-    color const fibre{0.86, 0.86, 0.87};
-    for (auto kind : {scene::particle_kind::free, scene::particle_kind::chondrocyte, scene::particle_kind::fibre}) {
+    for (int kind = 0; kind < int(s.kinds.size()); ++kind) {
         detail::add_particles(page, s, kind, 0.97);
-        page.fill_and_stroke(kind == scene::particle_kind::free ? faint : fibre, {0.84, 0.84, 0.85}, 0.5);
+        page.fill_and_stroke(s.kinds[std::size_t(kind)].behind, {0.84, 0.84, 0.85}, 0.5);
     }
     detail::add_bonds(page, s);
     page.stroke({0.58, 0.58, 0.60}, 1.8);
@@ -239,13 +232,12 @@ inline void draw_damage(canvas& page, scene const& s, picture_style const& style
     detail::draw_surroundings(page, s, style, layout);
     detail::draw_zones(page, s, style, layout);
     double const x = layout.column;
-    double y = draw_legend(page, {x, layout.frame.low + 12},
-                           {{legend_mark::dash, style.tension, "broken in tension: " + std::to_string(torn)},
-                            {legend_mark::dash, style.shear, "broken in shear: " + std::to_string(sheared)},
-                            {legend_mark::line, {0.58, 0.58, 0.60}, "intact bond"},
-                            {legend_mark::disc, fibre, "fibre particle"},
-                            {legend_mark::disc, faint, "free particle"}},
-                           em, style.ink);
+    std::vector<legend_entry> legend{{legend_mark::dash, style.tension, "broken in tension: " + std::to_string(torn)},
+                                     {legend_mark::dash, style.shear, "broken in shear: " + std::to_string(sheared)},
+                                     {legend_mark::line, {0.58, 0.58, 0.60}, "intact bond"}};
+    for (int kind = int(s.kinds.size()) - 1; kind >= 0; --kind)
+        if (detail::has_kind(s, kind)) legend.push_back({legend_mark::disc, s.kinds[std::size_t(kind)].behind, s.kinds[std::size_t(kind)].name});
+    double y = draw_legend(page, {x, layout.frame.low + 12}, legend, em, style.ink);
     y = detail::draw_captions(page, s, style, {x, y + em}) + 1.6 * em;
     if (!pressures.empty()) {
         auto const range = std::minmax_element(pressures.begin(), pressures.end());

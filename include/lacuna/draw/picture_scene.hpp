@@ -6,6 +6,7 @@
 
 #include <lacuna/core/error.hpp>
 #include <lacuna/core/vec.hpp>
+#include <lacuna/draw/color_scale.hpp>
 
 namespace lacuna {
 
@@ -14,11 +15,16 @@ namespace lacuna {
 struct scene {
     using point = vec<double, 2>;
 
-    enum class particle_kind { free, fibre, chondrocyte };
+    /// Particles that are drawn alike.
+    struct particle_kind {
+        std::string name;                   ///< in the legend
+        color fill{0.40, 0.60, 0.86};       ///< in the picture of the packing
+        color behind{0.955, 0.955, 0.96};   ///< faintly, behind the damage
+    };
     struct particle {
-        point position{};                        ///< m
-        double radius = 0;                       ///< m
-        particle_kind kind = particle_kind::free;
+        point position{};  ///< m
+        double radius = 0; ///< m
+        int kind = 0;      ///< number in `kinds`
     };
     /// An intact bond, from particle to particle.
     struct bond {
@@ -58,6 +64,7 @@ struct scene {
     double bottom = 0; ///< m
     double right = 0;  ///< m
     double top = 0;    ///< m
+    std::vector<particle_kind> kinds{{"particle"}}; ///< the last on top
     std::vector<particle> particles;
     std::vector<bond> bonds;
     std::vector<crack> cracks;
@@ -71,7 +78,7 @@ struct scene {
     std::string load_label;            ///< beside the arrows, "60 MPa" say
     std::vector<std::string> captions; ///< short lines of figures, beside the picture
 
-    /// \throws std::invalid_argument for an empty frame or a particle without a position or a radius
+    /// \throws std::invalid_argument for an empty frame, or a particle without a position, a radius or a kind
     void validate() const {
         require_finite("scene.left", left);
         require_finite("scene.bottom", bottom);
@@ -80,6 +87,7 @@ struct scene {
         for (particle const& p : particles) {
             require_finite("scene.particles.position", p.position[0] + p.position[1]);
             require_positive("scene.particles.radius", p.radius);
+            require_in("scene.particles.kind", p.kind, 0, double(kinds.size()) - 1);
         }
     }
 };
