@@ -7,7 +7,7 @@
 cmake_minimum_required(VERSION 3.25)
 
 file(GLOB_RECURSE sources RELATIVE "${ROOT}" "${ROOT}/include/lacuna/*.hpp")
-file(GLOB own RELATIVE "${ROOT}" "${ROOT}/examples/cartilage/*.hpp" "${ROOT}/examples/cartilage/*.cpp")
+file(GLOB_RECURSE own RELATIVE "${ROOT}" "${ROOT}/examples/cartilage/*.hpp" "${ROOT}/examples/cartilage/*.cpp")
 list(APPEND sources ${own})
 list(SORT sources)
 set(text "${BUILD}\n")
