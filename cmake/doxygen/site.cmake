@@ -41,7 +41,6 @@ configure_file("${CMAKE_CURRENT_LIST_DIR}/main.md.in" "${OUT}/pages/main.md" @ON
 
 section(limits "Not there yet, not validated" README.md)
 without_links(limits "${limits}")
-string(REPLACE "\nBSD-3-Clause." "" limits "${limits}")
 file(WRITE "${OUT}/pages/limits.md" "# Limits {#limits}\n${limits}")
 
 file(READ "${SOURCE}/tests/README.md" checks)
@@ -68,7 +67,7 @@ foreach(page IN LISTS pages)
       endif()
     endforeach()
   endforeach()
-  string(REGEX MATCHALL "`[a-z_]+/[a-z_]+\\.hpp`" files "${text}")
+  string(REGEX MATCHALL "`[a-z_]+(/[a-z_]+)+\\.hpp`" files "${text}")
   foreach(name IN LISTS files)
     string(REPLACE "`" "" name "${name}")
     if(NOT EXISTS "${SOURCE}/include/lacuna/${name}")
