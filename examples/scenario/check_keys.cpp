@@ -13,8 +13,9 @@ namespace lacuna_run {
 class file_meaning {
 public:
     explicit file_meaning(toml::table const& file) : file_(file) {
-        auto const whole = file_["simulation"]["dimension"].value<long long>();
-        dimension_ = whole && *whole == 3 ? 3 : 2;
+        // As a whole number only: toml++ takes other numbers for one without asking whether they fit.
+        auto const* whole = file_["simulation"]["dimension"].as_integer();
+        dimension_ = whole && whole->get() == 3 ? 3 : 2;
         for (key const& row : keys) {
             std::string_view const all = row.path;
             auto const dot = all.rfind('.');

@@ -45,6 +45,7 @@ double value::number() const {
 double value::number(rule const& good) const {
     double const found = number();
     if (found < good.least || (found == good.least && good.above_least) || found > good.most) refuse(good.text);
+    if (good.least == 0 && good.above_least && !std::isfinite(1 / found)) refuse("at least 1e-300");
     return found;
 }
 

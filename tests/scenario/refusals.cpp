@@ -150,6 +150,8 @@ TEST_CASE("each bad value is refused by its path", "[refusal]") {
         {"density = 1000.0", "density = inf", "materials.matrix.density = inf: must be finite"},
         {"friction = 0.1", "friction = -0.1", "materials.matrix.friction = -0.1: must be >= 0"},
         {"dimension = 2", "dimension = 4", "simulation.dimension = 4: must be 2 or 3"},
+        {"dimension = 2", "dimension = -1e308", "simulation.dimension = -1e+308: must be a whole number"},
+        {"density = 1000.0", "density = 5e-324", "materials.matrix.density = 4.94066e-324: must be at least 1e-300"},
         {"thickness = 1.0", "thickness = 0.0", "simulation.thickness = 0: must be > 0"},
         {"time_step = \"auto\"", "time_step = \"fast\"", "simulation.time_step = \"fast\": must be \"auto\" or a number of seconds"},
         {"time_step = \"auto\"", "time_step = -1", "simulation.time_step = -1: must be > 0"},

@@ -57,6 +57,21 @@ TEST_CASE("a row of discs that is squeezed buckles at its rate", "[guards]") {
     REQUIRE(std::fabs(run.energy().residual()) < 1e-2 * run.energy().largest());
 }
 
+TEST_CASE("an energy that is not a number ends a run", "[guards]") {
+    // In single precision one over 1e-40 is infinite, and with it the energy of the bond's spring, which has no force.
+    using single = lacuna::default_model<2, float>;
+    lacuna::packing<float, 2> row;
+    for (int k = 0; k < 3; ++k) row.add({float(k), 0}, 0.5f);
+    row.bonds = {{0, 1}, {1, 2}};
+    auto p = springs<single>(1e6, 1e6);
+    lacuna::simulation<single> sound(row, p);
+    REQUIRE(said(sound, 1).empty());
+    p.bonds.resize(2);
+    p.bonds[0].normal_stiffness = 1e-40;
+    lacuna::simulation<single> run(row, p);
+    REQUIRE_THAT(said(run, 1), contains_text("an energy is not a number") && contains_text("single precision"));
+}
+
 TEST_CASE("a shallow truss of two bars snaps through beyond its limit load, not below", "[guards]") {
     // Half span b, height h: F(y) = 2 k y (L0 / L - 1), L^2 = b^2 + y^2, is largest where L^3 = L0 b^2.
     double const b = 2, h = 0.3, k = 1, l0 = std::hypot(b, h), l = std::cbrt(l0 * b * b), y = std::sqrt(l * l - b * b);

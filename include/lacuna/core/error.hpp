@@ -58,6 +58,8 @@ inline void require_finite(std::string_view field, double value) {
 }
 inline void require_positive(std::string_view field, double value) {
     if (!(value > 0) || !std::isfinite(value)) refuse(field, value, "> 0 and finite");
+    // Others are divided by it.
+    if (!std::isfinite(1 / value)) refuse(field, value, "at least 1e-300");
 }
 inline void require_not_negative(std::string_view field, double value) {
     if (!(value >= 0) || !std::isfinite(value)) refuse(field, value, ">= 0 and finite");

@@ -63,8 +63,12 @@ public:
         if (guards_.resolution) check_resolution(store, dt, moved.path, now);
         return moved.path;
     }
-    /// \throws unstable_run when energy has come from nowhere
+    /// \throws unstable_run when an energy is not a number, or energy has come from nowhere
     void check_energy(store_type const& store, energy_ledger const& ledger, double dt, moment const& now) const {
+        if (!std::isfinite(ledger.residual()))
+            throw_unstable(store, now, -1, "an energy is not a number",
+                           "a stiffness, a mass, a load or a pressure is so large or so small that it leaves the range of " +
+                               precision_text<real>());
         if (!guards_.energy || unstable_step_ || !(ledger.residual() > 0.5 * ledger.largest())) return;
         // In each step rounding may add what particles have that move by a spacing of numbers in a step.
         double mass = 0;

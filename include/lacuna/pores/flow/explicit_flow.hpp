@@ -3,9 +3,10 @@
 
 #include <cmath>
 #include <limits>
-#include <stdexcept>
+#include <string>
 #include <utility>
 
+#include <lacuna/core/error.hpp>
 #include <lacuna/core/points.hpp>
 #include <lacuna/core/records.hpp>
 #include <lacuna/laws/aperture.hpp>
@@ -58,7 +59,7 @@ public:
     /// \tparam WithLedger also keeps ledger()
     /// \param tractions gets what the pores exert on every particle: the record {F_x, F_y, 0, 0}, in space {F_x, F_y,
     ///        F_z, 0} and a record of zeros, N; nullptr: nobody wants it
-    /// \throws std::runtime_error when `substeps` = 0 and the step takes more than most_substeps
+    /// \throws std::invalid_argument when `substeps` = 0 and the step takes more than most_substeps
     template <bool WithLedger>
     void step(body_column<Real> const& place, Real const* normal_forces, Real dt, int threads = 1,
               record_column<Real>* tractions = nullptr) {
@@ -108,9 +109,9 @@ private:
         // The limit is that of the volumes after the step; 1 % covers their change within it.
         double const count = std::ceil(1.01 * double(dt) / double(this->substep_limit()));
         if (!(count <= most_substeps))
-            throw std::runtime_error("flow: a step of " + to_text(double(dt)) + " s takes " + to_text(count) +
-                                     " explicit flow steps, the most is " + to_text(most_substeps) +
-                                     "; use implicit_flow");
+            refuse("time_step", to_text(double(dt)) + " s",
+                   "at most " + to_text(most_substeps * double(this->substep_limit()) / 1.01) + " s here: more takes more than " +
+                       std::to_string(most_substeps) + " explicit steps of the fluid in one; implicit flow takes one");
         return count > 1 ? int(count) : 1;
     }
 };
