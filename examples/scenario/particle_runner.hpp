@@ -36,12 +36,13 @@ struct run_model : lacuna::default_model<Dim, Real> {
 
 /// A run of particles, with or without fluid.
 template <class Model>
-class particle_runner final : public runner {
+class particle_runner : public runner {
     static constexpr int dim = Model::dim;
-    using simulation = lacuna::simulation<Model>;
     using vector = lacuna::vec<double, dim>;
 
 public:
+    using simulation = lacuna::simulation<Model>;
+
     explicit particle_runner(scenario const& s) : scenario_(s), told_(statement_of(s)) {
         journal_.heading = heading_of(s);
         build(model_parameters<Model>(s));
@@ -68,6 +69,8 @@ public:
     journal const& told() const override { return journal_; }
     long long steps() const override { return sim_->steps(); }
     std::string summary(std::string const& ended, std::string const& message) const override;
+    /// What runs, to be looked at.
+    simulation const& simulated() const noexcept { return *sim_; }
 
 private:
     /// Tells what a run does, step by step.

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include <array>
+#include <cmath>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 
+#include <lacuna/laws/hertz_mindlin.hpp>
+#include <lacuna/laws/parallel_bond.hpp>
 #include <lacuna/observe/crack_record.hpp>
 #include <lacuna/pores/flow/explicit_flow.hpp>
 #include <lacuna/pores/mesh/triangulation.hpp>
@@ -12,25 +16,31 @@
 #include "fuzz/corpus.hpp"
 
 /// \file
-/// The reader of checkpoints: any bytes as a file, and any bytes as the state in a sound envelope. They are refused, or
-/// make a simulation that can be stepped; refused, they change nothing.
+/// The reader of checkpoints, for a wet model of the plane and one of space in single precision: any bytes as a file, and
+/// any bytes as the state, or as what was given, in a sound envelope. They are refused, or make a simulation that can be
+/// stepped; refused, they change nothing. What is read and written again has the same bytes, and a run on from there is the
+/// same twice.
 
 namespace {
 
-struct model : lacuna::default_model<2> {
+struct wet_plane : lacuna::default_model<2> {
     using damping = lacuna::viscous_damping;
     using flow = lacuna::explicit_flow;
 };
-using record = lacuna::crack_record<lacuna::break_event<2>>;
+struct body_of_floats : lacuna::default_model<3, float> {
+    using contact_law = lacuna::hertz_mindlin;
+    using bond_law = lacuna::parallel_bond;
+    using damping = lacuna::combined_damping;
+};
 
-lacuna::simulation<model> make() {
+lacuna::simulation<wet_plane> make(wet_plane) {
     lacuna::packing<double, 2> discs;
     for (int y = 0; y < 2; ++y)
         for (int x = 0; x < 5; ++x) {
             auto const k = discs.add({0.98 * x, 0.99 * y}, 0.5);
             if (x > 0 && y == 0) discs.bonds.push_back({k - 1, k});
         }
-    lacuna::simulation_parameters<model> p;
+    lacuna::simulation_parameters<wet_plane> p;
     p.materials[0] = {1000, {1e3, 1e3, 0.5}, {1e3, 1e3, 20, 20}};
     p.time_step = 0.01;
     p.flow.bulk_modulus = 1e3;
@@ -38,7 +48,7 @@ lacuna::simulation<model> make() {
     p.flow.aperture = {0.1, 10, 1};
     p.remeshing = {lacuna::remesh_rule::when_needed, 2, true};
     p.walls = {{{0, -0.49}, {0, 1}, p.materials[0].contact}};
-    lacuna::simulation<model> run(discs, p);
+    lacuna::simulation<wet_plane> run(discs, p);
     run.apply(3, {1, 1}, 0, 10);
     for (std::size_t k = 0; k < run.size(); ++k) run.set_velocity(k, {0.1 * double(k % 3), -0.1 * double(k % 2)});
     run.fill_pores([](auto points, double const* radii) {
@@ -47,49 +57,113 @@ lacuna::simulation<model> make() {
     return run;
 }
 
-lacuna::checkpoint_content const& sound(long long steps) {
-    static lacuna::checkpoint_content content;
-    auto run = make();
-    record cracks;
-    run.run(steps, cracks);
-    return content = lacuna::checkpoint_of(run, cracks);
+lacuna::simulation<body_of_floats> make(body_of_floats) {
+    lacuna::packing<float, 3> spheres;
+    for (int k = 0; k < 8; ++k) {
+        spheres.add({0.98f * float(k % 2), 0.99f * float(k / 2 % 2), 0.97f * float(k / 4)}, k == 7 ? 0.45f : 0.5f);
+        if (k % 2 == 1) spheres.bonds.push_back({k - 1, k});
+    }
+    lacuna::simulation_parameters<body_of_floats> p;
+    p.materials[0].density = 1000;
+    p.materials[0].contact = {1e5, 0.25, 0.5, 1};
+    p.materials[0].bond.normal_stiffness = p.materials[0].bond.shear_stiffness = 1e3;
+    p.materials[0].bond.tensile_strength = p.materials[0].bond.shear_strength = 30;
+    p.damping = {0.05, 0.1, 0.1};
+    p.gravity = {0, 0, -1};
+    p.walls = {{{0, 0, -0.49}, {0, 0, 1}, p.materials[0].contact}};
+    lacuna::simulation<body_of_floats> run(spheres, p);
+    run.apply(3, {1, 1, 0}, {0, 0, 0.1}, 10);
+    run.move(5, {0.5, 0, 0.2}, 1);
+    run.move_wall(0, {0, 0, 0.01}, 0.5);
+    for (std::size_t k = 0; k < 5; ++k) run.set_velocity(k, {0.1 * double(k % 3), -0.1 * double(k % 2), 0});
+    run.set_spin(6, {1, 0, -2});
+    return run;
+}
+
+template <class Model>
+class reader {
+    using simulation = lacuna::simulation<Model>;
+    using record = lacuna::crack_record<lacuna::break_event<Model::dim>>;
+    simulation const fresh_ = make(Model{});
+    std::uint64_t const before_ = lacuna::state_hash(fresh_);
+    lacuna::checkpoint_content const begun_ = sound(0);
+
+    lacuna::checkpoint_content sound(long long steps) const {
+        auto run = fresh_;
+        record cracks;
+        run.run(steps, cracks);
+        return lacuna::checkpoint_of(run, cracks);
+    }
+    /// Some steps; the hash of what they come to, 0 for an end on the way.
+    static std::uint64_t go_on(simulation& run) {
+        try {
+            for (int n = 0; n < 3; ++n) run.step_with_energy();
+            return lacuna::state_hash(run);
+        } catch (lacuna::unstable_run const&) {
+        } catch (std::invalid_argument const&) {
+        }
+        return 0;
+    }
+
+public:
+    void write_seeds(int argc, char** argv, std::string const& name, char first) const {
+        for (long long const steps : {0, 1, 40}) {
+            auto const content = sound(steps);
+            auto const seed = [&](char const* part, int kind, std::string const& bytes) {
+                fuzz::write_seed(argc, argv, name + part + std::to_string(steps), char(first + kind) + bytes);
+            };
+            seed("file", 0, lacuna::pack_checkpoint(content));
+            seed("state", 1, content.state);
+            seed("given", 2, content.given);
+        }
+    }
+
+    void try_one(int kind, std::string_view bytes) const {
+        simulation run = fresh_;
+        record cracks;
+        lacuna::checkpoint_content content = begun_;
+        try {
+            if (kind == 0) content = lacuna::unpack_checkpoint(bytes, "bytes");
+            if (kind == 1) content.state = bytes;
+            if (kind == 2) content.given = bytes;
+            lacuna::resume_from(content, "bytes", run, cracks);
+        } catch (lacuna::checkpoint_error const& bad) {
+            fuzz::expect(lacuna::state_hash(run) == before_, "a file that is refused changes nothing");
+            fuzz::expect(std::string_view(bad.what()).find('\n') == std::string_view::npos, "why is said in one line");
+            return;
+        }
+        auto const again = lacuna::checkpoint_of(run, cracks);
+        simulation other = fresh_;
+        record others;
+        lacuna::resume_from(again, "written again", other, others);
+        auto const twice = lacuna::checkpoint_of(other, others);
+        fuzz::expect(twice.state == again.state && twice.given == again.given, "what is read is written as it was");
+        fuzz::expect(go_on(run) == go_on(other), "a run goes on as the one that it was read from");
+    }
+};
+
+template <class Model>
+reader<Model> const& reader_of() {
+    static reader<Model> const one;
+    return one;
 }
 
 } // namespace
 
 extern "C" int LLVMFuzzerInitialize(int* argc, char*** argv) {
-    for (long long const steps : {0, 1, 40}) {
-        auto const content = sound(steps);
-        fuzz::write_seed(*argc, *argv, "file" + std::to_string(steps), "f" + lacuna::pack_checkpoint(content));
-        fuzz::write_seed(*argc, *argv, "state" + std::to_string(steps), "s" + content.state);
-        fuzz::write_seed(*argc, *argv, "given" + std::to_string(steps), "e" + content.given);
-    }
+    reader_of<wet_plane>().write_seeds(*argc, *argv, "plane_", '0');
+    reader_of<body_of_floats>().write_seeds(*argc, *argv, "space_", '4');
     return 0;
 }
 
+/// The first byte: model, and what the others are.
 extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size) {
     if (size == 0) return 0;
     std::string_view const bytes(reinterpret_cast<char const*>(data + 1), size - 1);
-    static auto const fresh = make();
-    static auto const before = lacuna::state_hash(fresh);
-    static auto const content = sound(0);
-    auto run = fresh;
-    record cracks;
-    try {
-        if (data[0] % 3 == 0)
-            lacuna::resume_from(lacuna::unpack_checkpoint(bytes, "bytes"), "bytes", run, cracks);
-        else if (data[0] % 3 == 2)
-            lacuna::resume_from({content.model, std::string(bytes), content.state}, "bytes", run, cracks);
-        else
-            lacuna::resume_from({content.model, content.given, std::string(bytes)}, "bytes", run, cracks);
-    } catch (lacuna::checkpoint_error const&) {
-        fuzz::expect(lacuna::state_hash(run) == before);
-        return 0;
-    }
-    try {
-        for (int n = 0; n < 3; ++n) run.step_with_energy();
-    } catch (lacuna::unstable_run const&) {
-    } catch (std::invalid_argument const&) {
-    }
+    int const kind = data[0] % 4 % 3;
+    if (data[0] & 4)
+        reader_of<body_of_floats>().try_one(kind, bytes);
+    else
+        reader_of<wet_plane>().try_one(kind, bytes);
     return 0;
 }

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstdio>
 #include <fstream>
 #include <string>
 
@@ -22,8 +23,10 @@ inline void write_seed(int argc, char** argv, std::string const& name, std::stri
 }
 
 /// Stops the run of the fuzzer when a promise is broken.
-inline void expect(bool holds) {
-    if (!holds) __builtin_trap();
+inline void expect(bool holds, char const* promise = "") {
+    if (holds) return;
+    std::fprintf(stderr, "broken promise: %s\n", promise);
+    __builtin_trap();
 }
 
 } // namespace fuzz

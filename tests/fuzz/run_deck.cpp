@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <unistd.h>
+
+#include <lacuna/core/error.hpp>
+
+#include "fuzz/corpus.hpp"
+#include "fuzz/deck_mutator.hpp"
+#include "fuzz/run_deck/facts.hpp"
+#include "runner.hpp"
+
+/// \file
+/// Decks of lacuna-run, read and run as the program does, for a few steps: see LLVMFuzzerTestOneInput() for what is asked
+/// of each.
+
+extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t most);
+
+namespace {
+
+namespace fs = std::filesystem;
+using lacuna_run::scenario;
+
+constexpr long long last_step = 24, checkpoint_step = 13;
+std::string scratch;
+std::vector<std::string> accepted; ///< decks that were run: most changes to others are refused again
+
+/// What is run is small: one input takes milliseconds.
+bool is_small(scenario const& s) {
+    return s.bodies.size() <= 64 && s.joints.pairs.size() <= 240 && s.walls.size() <= 8 && s.loads.size() <= 16 &&
+           s.materials.size() <= 8 && s.probes.size() <= 16 && (!s.water || s.water->pores.size() <= 64);
+}
+
+/// \param fine whether "auto" is to be a step with which the ledger adds up closely
+void shorten(scenario& s, bool fine) {
+    if (fine) s.simulation.safety = std::min(s.simulation.safety, 0.005);
+    s.simulation.end_time.reset();
+    s.simulation.steps = std::min(s.simulation.steps.value_or(last_step), last_step);
+    s.simulation.threads = 1;
+    s.out.directory = scratch + "/out";
+    s.out.checkpoint_every = checkpoint_step;
+    if (s.out.vtk_every > 0) s.out.vtk_every = std::max(s.out.vtk_every, 9LL);
+    if (s.out.picture_every > 0) s.out.picture_every = std::max(s.out.picture_every, 16LL);
+}
+
+/// The same with the particles numbered from behind.
+scenario turned_round(scenario s) {
+    auto const last = std::int32_t(s.bodies.size()) - 1;
+    auto const turn = [](auto& list) { std::reverse(list.begin(), list.end()); };
+    turn(s.bodies.position);
+    turn(s.bodies.velocity);
+    turn(s.bodies.spin);
+    turn(s.bodies.radius);
+    turn(s.bodies.density);
+    turn(s.bodies.material);
+    for (auto& f : s.bodies.fix)
+        for (auto& id : f.particles) id = last - id;
+    for (auto& l : s.loads)
+        for (auto& id : l.particles) id = last - id;
+    for (auto& p : s.joints.pairs)
+        for (auto& id : p) id = last - id;
+    s.probes.clear();
+    return s;
+}
+
+struct outcome {
+    std::string message; ///< of the unstable run; empty: it came to its end
+    std::map<std::string, std::string> files;
+    std::optional<fuzz::run_facts> last; ///< of runs of particles
+    std::optional<fuzz::step_facts> seen; ///< the same, where they were looked at
+};
+
+std::map<std::string, std::string> files_in(std::string const& directory) {
+    std::map<std::string, std::string> files;
+    for (auto const& entry : fs::directory_iterator(directory)) {
+        std::ifstream file(entry.path(), std::ios::binary);
+        files[entry.path().filename().string()] = {std::istreambuf_iterator<char>(file), {}};
+    }
+    return files;
+}
+
+enum class look { at_end, at_each_step };
+
+/// What the program does. \param checkpoint empty: from the beginning
+outcome play(scenario const& s, look how, std::string const& checkpoint = "") {
+    auto const run = lacuna_run::make_runner(s);
+    lacuna_run::resumption start;
+    if (!checkpoint.empty()) {
+        run->restore(checkpoint);
+        start = lacuna_run::find_earlier_part(s, checkpoint, run->told(), run->steps());
+    }
+    outcome done;
+    auto const* watched = dynamic_cast<fuzz::watched const*>(run.get());
+    long long const left = *s.simulation.steps - run->steps();
+    if (watched && how == look::at_each_step && left > 0) done.seen = watched->rehearse(left);
+    lacuna_run::results out(s, checkpoint.empty(), start);
+    out.begin();
+    try {
+        fuzz::expect(run->run(out), "a run that no signal stops comes to its end");
+        out.finish(run->summary("steps", ""), true);
+    } catch (lacuna::unstable_run const& bad) {
+        done.message = bad.what();
+        out.finish(run->summary("unstable", bad.what()), true);
+    }
+    if (watched) done.last = watched->facts(done.message.empty());
+    done.files = files_in(s.out.directory);
+    return done;
+}
+
+/// Whether nothing acts on the particles but they on each other, and the fluid between them.
+bool is_free(scenario const& s) {
+    return s.walls.empty() && s.loads.empty() && s.bodies.fix.empty() && s.simulation.gravity == lacuna_run::point{} &&
+           s.simulation.local_damping == 0 && s.simulation.mass_damping == 0;
+}
+
+void check_steps(scenario const& s, outcome const& done) {
+    auto const& seen = *done.seen;
+    fuzz::expect(seen.message == done.message && seen.hash == done.last->hash, "the same run twice has the same end");
+    fuzz::expect(seen.finite, "what is not said to be unstable is finite");
+    double const steps = double(*s.simulation.steps);
+    if (is_free(s)) fuzz::expect(seen.momentum_change <= 8 * steps * seen.momentum_rounding, "the momentum of free bodies stays");
+    if (s.simulation.allow_unstable_step) return;
+    // The ledger is of second order in the step, but for slip, and for dashpots, whose forces begin and end at once.
+    double const part = seen.share * (8 * seen.share + 4 * s.simulation.viscous_damping);
+    double const most = std::min(0.5, part) * seen.energy + 4 * seen.share * seen.spent + 64 * steps * seen.energy_rounding;
+    fuzz::expect(seen.residual <= most, "the energies add up");
+}
+
+void check_restart(scenario const& s, outcome const& whole) {
+    std::string const checkpoint = s.out.directory + "/checkpoint.bin";
+    if (!fs::exists(checkpoint)) return;
+    outcome const resumed = play(s, look::at_end, checkpoint);
+    fuzz::expect(resumed.message == whole.message, "a resumed run ends as the whole one");
+    fuzz::expect(resumed.files == whole.files, "a resumed run leaves the files of the whole one");
+    if (whole.last) fuzz::expect(resumed.last->hash == whole.last->hash, "a resumed run has the bits of the whole one");
+}
+
+void check_order(scenario const& s, outcome const& whole) {
+    outcome const other = play(turned_round(s), look::at_end);
+    fuzz::expect(other.message.empty() == whole.message.empty(), "a run ends as that of another order");
+    if (!whole.message.empty()) return; // its numbers may be none
+    auto const &a = whole.last->state, &b = other.last->state;
+    fuzz::expect(std::equal(a.begin(), a.end(), b.rbegin(), b.rend()), "a run has the bits of that of another order");
+}
+
+/// So many that a good part of the runs is seen.
+void keep(std::string deck) {
+    static std::size_t next = 0;
+    if (accepted.size() < 512)
+        accepted.push_back(std::move(deck));
+    else
+        accepted[next++ % accepted.size()] = std::move(deck);
+}
+
+bool begins(std::string_view text, std::string_view with) { return text.substr(0, with.size()) == with; }
+
+void check_text(std::string_view text) {
+    fuzz::expect(!text.empty() && text.find('\n') == text.npos, "what is wrong is said in one line");
+}
+/// "field = value: must be rule", or where the text is not TOML.
+void check_refusal(std::string_view text) {
+    check_text(text);
+    bool const syntax = begins(text, "deck:") || begins(text, "not a TOML file: ");
+    fuzz::expect(syntax || text.find(": must ") != text.npos, "a refusal says what must be");
+}
+
+} // namespace
+
+extern "C" int LLVMFuzzerInitialize(int*, char***) {
+    std::error_code none;
+    fs::path const memory = "/dev/shm";
+    scratch = ((fs::is_directory(memory, none) ? memory : fs::temp_directory_path()) / ("lacuna_run_deck." + std::to_string(::getpid()))).string();
+    std::atexit([] {
+        std::error_code ignored;
+        fs::remove_all(scratch, ignored);
+    });
+    return 0;
+}
+
+extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t most, unsigned seed) {
+    if (seed % 16 == 0) return LLVMFuzzerMutate(data, size, most);
+    std::string deck(reinterpret_cast<char const*>(data), size);
+    if (seed % 4 != 0 && !accepted.empty()) deck = accepted[seed / 4 % accepted.size()];
+    std::string const changed = fuzz::deck_mutator(seed)(deck);
+    std::size_t const length = std::min(changed.size(), most);
+    std::copy_n(changed.begin(), length, data);
+    return length;
+}
+
+/// A deck is refused by one line that says what must be; nothing but a refusal or an unstable run is thrown. A run ends with
+/// numbers, or it is said to be unstable. The ledger adds up to what its order in the step allows; the momentum of bodies
+/// that are free stays. The same run twice, taken up again at a checkpoint, or with its particles in another order has the
+/// same bits, and the resumed one the same files. Not compared: numbers of threads, which so few particles are not shared
+/// among.
+extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size) {
+    try {
+        scenario s = lacuna_run::read_scenario({reinterpret_cast<char const*>(data), size}, "deck", "");
+        if (!is_small(s)) return 0;
+        shorten(s, size % 2 == 0);
+        outcome const whole = play(s, look::at_each_step);
+        if (whole.message.empty() && whole.seen) keep({reinterpret_cast<char const*>(data), size});
+        if (!whole.message.empty()) check_text(whole.message);
+        if (whole.seen) check_steps(s, whole);
+        check_restart(s, whole);
+        if (whole.last) check_order(s, whole);
+    } catch (fuzz::other_kind const&) {
+    } catch (lacuna_run::refusal const& bad) {
+        check_refusal(bad.what());
+    } catch (std::invalid_argument const& bad) {
+        check_refusal(bad.what());
+    }
+    return 0;
+}
