@@ -43,7 +43,7 @@ struct wet : lacuna::default_model<2> {
 
 struct row {
     std::string name;
-    double measured = 0, equation_9 = infinite, equation_19 = infinite, bound = infinite;
+    double measured = 0, wave_limit = infinite, mean_throat_limit = infinite, bound = infinite;
     double theory = 0; ///< 0: none
 };
 
@@ -198,8 +198,8 @@ row measure(std::string name, lacuna::packing<double, Model::dim> const& body, s
     row r;
     r.name = std::move(name);
     auto const limits = make<Model>(body, s, 1).limits();
-    r.equation_9 = limits.equation_9;
-    r.equation_19 = limits.equation_19;
+    r.wave_limit = limits.wave_limit;
+    r.mean_throat_limit = limits.mean_throat_limit;
     r.bound = limits.critical();
     r.theory = theory;
     r.measured = bisect(theory > 0 ? theory : r.bound * 1.1,
@@ -286,7 +286,7 @@ row pore_line(std::string name, std::vector<double> const& apertures, double the
     row r;
     r.name = std::move(name);
     solver const at_rest(p, network);
-    r.equation_19 = at_rest.equation_19_time_step();
+    r.mean_throat_limit = at_rest.mean_throat_limit();
     r.bound = at_rest.critical_time_step();
     r.theory = theory;
     r.measured = bisect(r.bound, [&](double step) {
@@ -404,14 +404,14 @@ int main(int count, char** arguments) {
                 std::printf(std::isfinite(x) && x > 0 ? ", \"%s\": %.7g" : ", \"%s\": null", key, x);
             };
             std::printf("%s\n  {\"name\": \"%s\", \"measured\": %.6g", k ? "," : "", r.name.c_str(), r.measured);
-            number("equation_9", r.equation_9);
-            number("equation_19", r.equation_19);
+            number("wave_limit", r.wave_limit);
+            number("mean_throat_limit", r.mean_throat_limit);
             number("bound", r.bound);
             number("theory", r.theory);
             std::printf(", \"good\": %s}", good(r) ? "true" : "false");
         } else {
             std::printf("%-52s", r.name.c_str());
-            for (double const x : {r.measured, r.equation_9, r.equation_19, r.bound, r.theory}) print_number(x, 9, "-");
+            for (double const x : {r.measured, r.wave_limit, r.mean_throat_limit, r.bound, r.theory}) print_number(x, 9, "-");
             std::printf(" %9.3f%s\n", r.bound / r.measured, good(r) ? "" : "  WRONG");
         }
     }

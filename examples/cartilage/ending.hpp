@@ -30,7 +30,6 @@ public:
         return std::max(1LL, static_cast<long long>(steps));
     }
 
-    /// The step may come out longer than when the steps were counted, once idle throats are left out.
     bool is_over(double time) const { return time >= longest_ * (1 - 1e-12); }
     /// To be asked after each step. \param kinetic energy, J \param last_break time of it, s; 0: none yet
     bool is_quiet(double kinetic, double time, double last_break) {

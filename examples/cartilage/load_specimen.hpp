@@ -11,6 +11,7 @@
 
 #include "cartilage_model.hpp"
 #include "collagen_strength.hpp"
+#include "ending.hpp"
 
 /// \file
 /// The numbers of the model (Tables 1 and 2), and what its choices make of them.
@@ -129,6 +130,7 @@ std::unique_ptr<lacuna::simulation<Model>> load_specimen(specimen const& s, opti
     parameters.safety = o.step_share;
     parameters.keep_pair_forces = o.pair_forces;
     if (o.time_step_ps) parameters.time_step = *o.time_step_ps * 1e-12;
+    if constexpr (lacuna::has_fluid<Model>) parameters.flow.duration = ending(o).longest();
     parameters.allow_unstable_step = o.allow_unstable_step;
     auto sim = std::make_unique<lacuna::simulation<Model>>(s.discs, parameters);
     set_up(*sim, s, o.load_MPa * 1e6, o.open);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "chosen_flow.hpp"
 
+#include <limits>
 #include <utility>
 
 namespace lacuna_run {
@@ -73,8 +74,15 @@ Real chosen_flow::solver<Real, Dim>::critical_time_step() const {
     return std::visit([](auto const& one) { return Real(one.critical_time_step()); }, chosen_);
 }
 template <class Real, int Dim>
-Real chosen_flow::solver<Real, Dim>::equation_19_time_step() const {
-    return std::visit([](auto const& one) { return Real(one.equation_19_time_step()); }, chosen_);
+Real chosen_flow::solver<Real, Dim>::mean_throat_limit() const {
+    return std::visit(
+        [](auto const& one) {
+            if constexpr (requires { one.mean_throat_limit(); })
+                return Real(one.mean_throat_limit());
+            else
+                return std::numeric_limits<Real>::infinity();
+        },
+        chosen_);
 }
 template <class Real, int Dim>
 Real chosen_flow::solver<Real, Dim>::storage_energy() const {
@@ -89,8 +97,8 @@ typename chosen_flow::solver<Real, Dim>::network_type const& chosen_flow::solver
     return std::visit([](auto const& one) -> network_type const& { return one.network(); }, chosen_);
 }
 template <class Real, int Dim>
-std::size_t chosen_flow::solver<Real, Dim>::skip_idle_throats(Real duration) {
-    return std::visit([&](auto& one) { return std::size_t(one.skip_idle_throats(duration)); }, chosen_);
+std::size_t chosen_flow::solver<Real, Dim>::skip_idle_throats() {
+    return std::visit([&](auto& one) { return std::size_t(one.skip_idle_throats()); }, chosen_);
 }
 
 template <class Real, int Dim>

@@ -88,12 +88,13 @@ struct chosen_flow {
         void advance(Real dt, int threads);
         std::array<lacuna::vec<Real, 2>, 3> pore_tractions(std::size_t pore, points_type points, Real const* radii) const;
         Real critical_time_step() const;
-        Real equation_19_time_step() const;
+        /// Of explicit and implicit flow; infinite without fluid.
+        Real mean_throat_limit() const;
         Real storage_energy() const;
         lacuna::flow_ledger<Real> const& ledger() const;
         network_type const& network() const;
         parameters const& settings() const { return parameters_; }
-        std::size_t skip_idle_throats(Real duration);
+        std::size_t skip_idle_throats();
         /// Goes on with another network of the same body; see the solvers.
         void restore(network_type network, lacuna::flow_ledger<Real> const& ledger);
         template <class Archive>

@@ -136,6 +136,8 @@ inline constexpr key keys[] = {
     {"fluid.sources[].pore", kind::index, "", "", any, lasting_pores, "numbered as in summary.json"},
     {"fluid.sources[].flow", kind::number, "m^3/s", required, any, always, ""},
     {"fluid.minimum_pressure", kind::number, "Pa", "never", not_positive, explicit_flow, "below it the fluid tears"},
+    {"fluid.duration", kind::number, "s", "that of the run", positive, with_particles | moving,
+     "throats through which practically nothing passes within it are left out"},
     {"fluid.remeshing", kind::table, "", "", any, moving | with_particles, "pores made anew as particles move"},
     {"fluid.remeshing.rule", kind::word, "", required, one_of("never|when_needed"), always,
      "when_needed: where the mesh does not fit the particles any more"},

@@ -84,6 +84,15 @@ inline chosen_flow::parameters flow_of(fluid const& from) {
     return to;
 }
 
+/// For how long throats have to matter, s: as the file says, or as long as the run; infinite where that is not known yet.
+inline double duration_of(scenario const& s) {
+    settings const& set = s.simulation;
+    if (s.water->duration) return *s.water->duration;
+    if (set.end_time) return *set.end_time;
+    double const steps = std::max(1.0, double(*set.steps));
+    return set.time_step > 0 ? steps * set.time_step : std::numeric_limits<double>::infinity();
+}
+
 template <class Model>
 lacuna::simulation_parameters<Model> model_parameters(scenario const& s) {
     constexpr int dim = Model::dim;
@@ -121,6 +130,7 @@ lacuna::simulation_parameters<Model> model_parameters(scenario const& s) {
     if constexpr (lacuna::has_fluid<Model>)
         if (s.water) {
             p.flow = flow_of(*s.water);
+            p.flow.duration = duration_of(s);
             if (s.water->remeshing) p.remeshing.rule = lacuna::remesh_rule::when_needed;
             p.remeshing.interval = s.water->remeshing_interval;
             p.remeshing.on_broken_bond = s.water->remeshing_on_broken_bond;

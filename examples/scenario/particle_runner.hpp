@@ -47,9 +47,14 @@ public:
         journal_.heading = heading_of(s);
         build(model_parameters<Model>(s));
         if constexpr (lacuna::has_fluid<Model>) {
+            auto p = model_parameters<Model>(s);
+            if (s.water && !std::isfinite(p.flow.duration)) {
+                // How long so many steps are follows from the step of the particles.
+                p.flow.duration = std::max(1.0, double(*s.simulation.steps)) * settled_step();
+                build(p);
+            }
             if (s.water && s.water->time_step > 0) {
-                // How many flow steps a step takes, or how many steps a flow step, follows from the step of the particles.
-                auto p = model_parameters<Model>(s);
+                // How many flow steps a step takes, or how many steps a flow step, too.
                 double const ratio = settled_step() / s.water->time_step;
                 if (!(ratio <= 1e6 && ratio >= 1e-6))
                     refuse("fluid.time_step", lacuna::to_text(s.water->time_step),

@@ -354,6 +354,7 @@ fluid read_fluid(value const& from) {
         table const r(one, "fluid.sources[]");
         f.sources.push_back({read_place(r, f.pores.size(), f.bare()), r.number("flow")});
     }
+    f.duration = t.given("duration");
     f.minimum_pressure = t.given("minimum_pressure");
     check_pressures(t, f);
     if (t.has("remeshing")) {

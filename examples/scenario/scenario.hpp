@@ -128,6 +128,7 @@ struct fluid {
     double half_force = 1, gap_factor = 1;
     bool implicit = false;
     double time_step = 0; ///< 0: auto
+    std::optional<double> duration; ///< throats through which practically nothing passes within it are left out, s
     double initial_pressure = 0;
     bool drained = false;
     double boundary_pressure = 0;

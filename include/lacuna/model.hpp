@@ -7,6 +7,7 @@
 #include <lacuna/laws/brittle_spring_bond.hpp>
 #include <lacuna/laws/damping.hpp>
 #include <lacuna/laws/frictional_spring.hpp>
+#include <lacuna/laws/law_concepts.hpp>
 #include <lacuna/laws/no_contact.hpp>
 #include <lacuna/motion/symplectic_euler.hpp>
 #include <lacuna/neighbors/cell_grid.hpp>
@@ -21,6 +22,8 @@ namespace lacuna {
 ///     using damping = lacuna::local_damping;
 /// };
 /// \endcode
+/// Its slots are the members below. A misspelt one would leave the default in place: names that are nearly a slot's are
+/// refused (simulation/slot_names.hpp); any other member is taken for the model's own.
 template <int Dim, class Real = double>
 struct default_model {
     static constexpr int dim = Dim;
@@ -45,14 +48,10 @@ inline constexpr bool plane_or_space = Dim == 2 || Dim == 3;
 
 /// A complete set of parts, each of the kind its slot asks for.
 template <class M>
-concept model = plane_or_space<M::dim> && std::floating_point<typename M::real> && requires {
-    requires contact_law<typename M::contact_law, M::dim>;
-    requires bond_law<typename M::bond_law, M::dim>;
-    requires damping_policy<typename M::damping>;
-    requires flow_policy<typename M::flow>;
-    requires integrator<typename M::integrator>;
-    requires domain_policy<typename M::domain>;
-    requires neighbor_search<typename M::template search<typename M::real, M::dim>>;
-};
+concept model = plane_or_space<M::dim> && std::floating_point<typename M::real> &&
+    contact_law<typename M::contact_law, M::dim> && bond_law<typename M::bond_law, M::dim> &&
+    damping_policy<typename M::damping> && flow_policy<typename M::flow, M::dim, typename M::real> &&
+    integrator<typename M::integrator, M::dim> && domain_policy<typename M::domain, M::dim> &&
+    neighbor_search<typename M::template search<typename M::real, M::dim>>;
 
 } // namespace lacuna

@@ -12,6 +12,10 @@
 #include <utility>
 #include <vector>
 
+// First, so that a compiler that refuses a model or a formula has the shortest way to say where.
+#include <lacuna/core/pack.hpp>
+#include <lacuna/simulation/model_check.hpp>
+
 #include <lacuna/core/parallel.hpp>
 #include <lacuna/interactions/interactions.hpp>
 #include <lacuna/interactions/interactions_archive.hpp>
@@ -32,15 +36,17 @@
 #include <lacuna/simulation/paths.hpp>
 #include <lacuna/simulation/run_guards.hpp>
 #include <lacuna/simulation/set_up_record.hpp>
+#include <lacuna/simulation/slot_names.hpp>
 #include <lacuna/simulation/step_control.hpp>
 
 namespace lacuna {
 
-/// A simulator, composed at compile time from the parts that Model names (see default_model).
+/// A simulator, composed at compile time from the parts that Model names (see default_model). What is no `model` is refused
+/// with one message, which names the slot.
 ///
 /// A step reads: neighbours, interactions, pores, loads, motion. Forces are those of the positions at the
 /// beginning of the step; `time()` is the time of the positions.
-template <model Model>
+template <class Model>
 class simulation : public particle_access<typename Model::real, Model::dim> {
 public:
     using model_type = Model;
@@ -57,6 +63,8 @@ public:
     using interactions_type = lacuna::interactions<real, dim, contact_law_type, bond_law_type, damping_type,
                                                    typename Model::template search<real, dim>, typename Model::domain>;
     using event_type = break_event<dim>;
+    static_assert(detail::refuse_misspelt_slots<Model>());
+    static_assert(detail::instantiates_formula<contact_law_type, dim> && detail::instantiates_formula<bond_law_type, dim>);
 
     /// \throws std::invalid_argument for a bad packing or parameter; for particles that are at the same place, overlap by
     ///         more than guards.overlap_limit, or are too far from the origin for the precision
@@ -220,7 +228,6 @@ public:
         (detail::check_observer<simulation, event_type, Observers>(), ...);
         constexpr bool always = (detail::needs_energy<Observers> || ...);
         constexpr bool sometimes = !always && (detail::samples_energy<Observers> || ...);
-        announce(steps);
         if (step_ == 0) time_step_.reset();
         settle_time_step();
         (detail::notify_start(observers, *this), ...);
@@ -326,15 +333,14 @@ public:
         walls_.archive(ar, store_);
         ar(wall_drive_);
         fluid_.archive(ar, store_);
-        ar(events_, kicked_, motions_, plates_, ledger_, guards_, time_step_, control_, moved_, step_, planned_steps_, planned_end_);
+        ar(events_, kicked_, motions_, plates_, ledger_, guards_, time_step_, control_, moved_, step_);
         ar(clock_.time, clock_.step, clock_.last);
         require_state(motions_.fits(store_.size()), "a motion prescribed to no particle");
         require_state(plates_.fit(store_.size()), "a rigid plate of no particle");
         require_state(guards_.fit(store_.size()), "guards that follow no particle");
         for (auto const& k : kicked_) require_state(k.particle < store_.size(), "a velocity given to no particle");
         require_state(!time_step_ || (*time_step_ > 0 && std::isfinite(*time_step_)), "its time step");
-        for (auto const number : {step_, planned_steps_, planned_end_})
-            require_state(number >= 0 && number < (1LL << 62), "its number of steps");
+        require_state(step_ >= 0 && step_ < (1LL << 62), "its number of steps");
         if constexpr (Archive::is_loading::value) {
             reports_.resize(std::size_t(interactions_.chunks()));
             fluid_.map_throats(interactions_);
@@ -372,12 +378,6 @@ private:
             return flow.told();
         else
             return false;
-    }
-
-    /// How long a run is decides on the throats that are left out.
-    void announce(long long steps) {
-        if (step_ + steps != planned_end_) planned_steps_ = steps;
-        planned_end_ = step_ + steps;
     }
 
     template <bool WithEnergy>
@@ -556,12 +556,11 @@ private:
         bool remeshed = false;
         if (pairs_changed) {
             fluid_.map_throats(interactions_);
-            skip_idle_throats();
+            fluid_.skip_idle_throats(store_, interactions_);
         }
         if (filled()) {
             fluid_.template step<WithEnergy>(store_, interactions_, dt, step_, parameters_.threads, extra_);
             remeshed = fluid_.remesh(store_, interactions_, step_);
-            if (remeshed) skip_idle_throats();
         } else
             std::fill(extra_.data(), extra_.data() + 4 * extra_.size(), real(0));
         interactions_.add_moments(store_, extra_);
@@ -586,12 +585,6 @@ private:
             throw_unstable(store_, now(), -1,
                            "a wall moved " + to_text(share) + " of the smallest radius in one step (limit " + to_text(limit) + ")",
                            "its velocity is too high");
-    }
-
-    /// Throats are left out for the run that was announced; ones that open within it are taken up again here.
-    void skip_idle_throats() const {
-        if (planned_steps_ > 0 && time_step_)
-            fluid_.skip_idle_throats(store_, interactions_, double(planned_steps_) * *time_step_);
     }
 
     /// Before the first step, whose length may not be known yet, the time is that of the start.
@@ -704,25 +697,18 @@ private:
             if (!filled()) throw std::logic_error("simulation: the model has a fluid but fill_pores() was not called");
         control_.reset(filled());
         auto const assumed = next_assumption();
-        time_step_limits found = find_limits_of(assumed);
+        time_step_limits const found = find_limits_of(assumed);
         bool const given = parameters_.time_step > 0;
         double speed = walls_.fastest_next();
         for (std::size_t k = 0; k < store_.size(); ++k) speed = std::max(speed, double(norm(store_.velocity(k))));
         look_ahead(speed, assumed.overlap);
-        if (planned_steps_ > 0 && std::isfinite(found.rigorous)) {
-            // Which throats matter depends on the length of the run, and that on the step of the particles.
-            time_step_ = given ? parameters_.time_step : parameters_.safety * found.rigorous;
-            skip_idle_throats();
-            time_step_.reset();
-            found = find_limits_of(assumed);
-        }
         double const critical = found.critical();
         if (given && !parameters_.allow_unstable_step && !(parameters_.time_step <= critical))
             refuse("time_step", parameters_.time_step,
                    "at most the stable limit " + to_text(critical) + " s (of " +
                        (found.rigorous <= found.flow ? "the particles, with rotation and fluid stiffness"
                                                      : "the flow between pores") +
-                       "; eq. 9 gives " + to_text(found.equation_9) + " s), or allow_unstable_step");
+                       "; eq. 9 gives " + to_text(found.wave_limit) + " s), or allow_unstable_step");
         double const step = given ? parameters_.time_step : chosen_step(critical);
         if (!std::isfinite(step))
             refuse("time_step", 0.0, "given: without any stiffness there is no critical time step");
@@ -734,7 +720,7 @@ private:
     mutable interactions_type interactions_; // mutable: how deep overlaps are watched is settled with the time step
     wall_contacts<contact_law_type, damping_type, real, dim> walls_;
     load_set<real, dim> loads_;
-    mutable fluid_coupling<Model> fluid_; // mutable: which throats are left out is settled with the time step
+    fluid_coupling<Model> fluid_;
     wall_drive<dim> wall_drive_;
     std::array<double, 2> wall_power_{};
     pair_energy wall_energy_;
@@ -758,7 +744,29 @@ private:
     step_clock clock_{parameters_.start_time, 0, 0};
     set_up_record set_up_; ///< up to the first step
     real moved_ = 0; ///< upper bound of the path of every particle in the last step, m
-    long long step_ = 0, planned_steps_ = 0, planned_end_ = 0;
+    long long step_ = 0;
 };
+
+/// \cond
+// What is no model: the first message is the only one, as what the program goes on to do is checked against another.
+template <class Model>
+    requires(!model<Model>)
+class simulation<Model> : public simulation<default_model<detail::with_slots<Model>::dim>> {
+    using slots = detail::with_slots<Model>;
+    static constexpr int space = slots::dim;
+    static_assert(detail::explain_slots<Model>() && detail::refuse_misspelt_slots<Model>());
+    static_assert(detail::explain_law<typename slots::contact_law, space, detail::contact_law_slot>());
+    static_assert(detail::explain_law<typename slots::bond_law, space, detail::bond_law_slot>());
+    static_assert(detail::explain_damping<typename slots::damping>());
+    static_assert(detail::explain_flow<typename slots::flow, space, typename slots::real>());
+    static_assert(detail::explain_integrator<typename slots::integrator, space>());
+    static_assert(detail::explain_domain<typename slots::domain, space>());
+    static_assert(detail::explain_search<typename slots::template search<typename slots::real, space>>());
+
+public:
+    template <class... Arguments>
+    explicit simulation(Arguments const&...) : simulation<default_model<space>>({}) {}
+};
+/// \endcond
 
 } // namespace lacuna

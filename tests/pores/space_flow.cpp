@@ -298,7 +298,7 @@ TEST_CASE("the step limit of flow in space is below 2 / lambda_max, by dense eig
     INFO(flow.critical_time_step() << " of " << exact);
     REQUIRE(flow.critical_time_step() > 0.3 * exact);
     REQUIRE(flow.critical_time_step() <= exact);
-    REQUIRE(flow.equation_19_time_step() == std::numeric_limits<double>::infinity());
+    REQUIRE(flow.mean_throat_limit() == std::numeric_limits<double>::infinity());
 }
 
 TEST_CASE("a facet's section conducts as a tube of its hydraulic radius") {

@@ -347,6 +347,7 @@ std::vector<change> const of_body{
     {"fluid.sources[].near", "pore = 1,", "near = [1.0, 0.5],", "fluid.sources[0].near"},
     {"fluid.sources[].flow", "flow = 1e-6", "flow = 2e-6", "fluid.sources[0].flow"},
     {"fluid.merge_conductance", "merge_conductance = 1e9\n", "", "fluid.merge_conductance"},
+    {"fluid.duration", "merge_conductance = 1e9\n", "merge_conductance = 1e9\nduration = 5.0\n", "fluid.duration"},
     {"fluid.minimum_pressure", "merge_conductance = 1e9\n", "merge_conductance = 1e9\nminimum_pressure = -5.0\n", "fluid.minimum_pressure"},
 };
 

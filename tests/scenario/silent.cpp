@@ -102,6 +102,7 @@ std::map<std::string_view, std::pair<char const*, char const*>> const values{
     {"fluid.remeshing.rule", {"\"when_needed\"", "\"never\""}},
     {"fluid.remeshing.interval", {"10", "20"}},
     {"fluid.remeshing.on_broken_bond", {"true", "false"}},
+    {"fluid.duration", {"1e-30", "2e-30"}},
     {"fluid.merge_conductance", {"1e-15", "2e-15"}},
     {"fluid.mechanical_coupling", {"false", "true"}},
     {"fluid.network.pores", {"[ { volume = 2.0 } ]", "[ { volume = 3.0 } ]"}},

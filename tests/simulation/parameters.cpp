@@ -141,6 +141,7 @@ TEST_CASE("each number of interactions, damping, walls, apertures, flow", "[refu
                           {"x.minimum_volume_fraction", rule::open_share},
                           {"x.minimum_pressure", rule::below},
                           {"x.initial_pressure", rule::finite},
+                          {"x.duration", rule::most},
                           {"x.skip_ratio", rule::most},
                           {"x.merge_conductance", rule::most}};
     for (auto const& a : aperture) flow.push_back({"x.aperture." + a.name, a.law});

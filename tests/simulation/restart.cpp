@@ -236,7 +236,7 @@ TEST_CASE("each setting that is another one is named, with fluid and walls", "[c
     explicit_ones.push_back({"damping.mass", [](auto& p) { p.damping.mass = 0.1; }});
     explicit_ones.push_back({"damping.viscous", [](auto& p) { p.damping.viscous = 0.1; }});
     // Untold: bending_stiffness of two bonds, which this law does not take; threads, keep_pair_forces.
-    check_changes<wet>(explicit_ones, 4 + guards);
+    check_changes<wet>(explicit_ones, 5 + guards);
 
     auto implicit_ones = common_changes<wet_implicit>();
     add_flow(implicit_ones);
@@ -246,7 +246,7 @@ TEST_CASE("each setting that is another one is named, with fluid and walls", "[c
     implicit_ones.push_back({"damping.mass", [](auto& p) { p.damping.mass = 0.1; }});
     implicit_ones.push_back({"damping.viscous", [](auto& p) { p.damping.viscous = 0.1; }});
     // ... and minimum_pressure, which is infinite in implicit flow.
-    check_changes<wet_implicit>(implicit_ones, 5 + guards);
+    check_changes<wet_implicit>(implicit_ones, 6 + guards);
 }
 
 TEST_CASE("each setting that is another one is named, in single precision, in space, on a ring", "[checkpoint][refusal]") {

@@ -145,7 +145,7 @@ TEST_CASE("the stable step of lattices, with rotation and without", "[stability]
                 auto const found = run.limits();
                 REQUIRE(found.rigorous <= exact);
                 CHECK(found.rigorous >= 0.6 * infinite);
-                REQUIRE_THAT(found.equation_9, WithinRel(reference("2a.dt_crit_infinite"), 1e-12));
+                REQUIRE_THAT(found.wave_limit, WithinRel(reference("2a.dt_crit_infinite"), 1e-12));
                 REQUIRE(found.critical() == found.rigorous);
             }
 }

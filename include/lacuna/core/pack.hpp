@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <type_traits>
@@ -54,6 +55,12 @@ struct pack_mask {
     using native = typename detail::native_vector<lane_type, sizeof(T) * W>::type;
     native bits;
 
+    /// A formula cannot branch by its lanes, which may differ.
+    template <std::same_as<bool> Bool>
+    explicit operator Bool() const noexcept {
+        static_assert(!std::same_as<Bool, bool>, "a formula decides lane by lane: select(condition, a, b), max and min stand for if and ?:");
+        return false;
+    }
     bool operator[](int lane) const noexcept { return bits[lane] != 0; }
     friend pack_mask operator&(pack_mask const& a, pack_mask const& b) noexcept { return {a.bits & b.bits}; }
     friend pack_mask operator|(pack_mask const& a, pack_mask const& b) noexcept { return {a.bits | b.bits}; }

@@ -10,6 +10,7 @@
 #include <lacuna/interactions/storage/pair_table.hpp>
 #include <lacuna/interactions/storage/read_ahead.hpp>
 #include <lacuna/laws/damping.hpp>
+#include <lacuna/laws/law_concepts.hpp>
 #include <lacuna/particles/store.hpp>
 
 namespace lacuna {
@@ -19,6 +20,7 @@ template <class Law, class Real>
 struct parameter_table {
     template <class T>
     using parameters_of = typename Law::template parameters<T>;
+    static_assert(detail::consists_of<parameters_of<dual<Real, 2>>, dual<Real, 2>>(), "a law's parameters must consist of T and vec<T, N>");
     std::vector<parameters_of<Real>> row;
 
     void add(parameters_of<double> const& p) {
@@ -219,7 +221,7 @@ template <pair_kind Kind, bool WithEnergy, class Law, class Damping, class Domai
         auto [pair, frame] = looks_ahead ? next : sight(p);
         if constexpr (looks_ahead) next = sight(p + 1 < end ? p + 1 : p);
         auto state = states.load(p);
-        if constexpr (Dim == 3) state.shear_force = frame.turned(state.shear_force);
+        if constexpr (Dim == 3 && requires { state.shear_force; }) state.shear_force = frame.turned(state.shear_force);
         if constexpr (Dim == 3 && carries_moment<Law>) state.bending_moment = frame.turned(state.bending_moment);
         if (std::int32_t const row = table.uniform_parameter(p); row != loaded || row < 0) {
             parameters.template load<lanes>(law, row, table.parameter() + slot);

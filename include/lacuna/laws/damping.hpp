@@ -7,11 +7,13 @@
 #include <string>
 
 #include <lacuna/core/error.hpp>
+#include <lacuna/core/pack.hpp>
 #include <lacuna/core/scalar.hpp>
 
 /// \file
 /// Damping policies. Each has `parameters` and two formulas over a scalar type:
-///   pair_force(p, stiffness, mass_i, mass_j, normal_rate): force along the normal, positive in tension, N;
+///   pair_force(p, stiffness, mass_i, mass_j, normal_rate): force along the normal, positive in tension, N (where
+///     acts_on_pairs is true);
 ///   particle_force(p, force, velocity): what is added to one component of a particle's force (or torque); with
 ///     `needs_inertia` also particle_force(p, force, velocity, inertia), and drag_rate(p): the drag over momentum, 1/s.
 
@@ -146,13 +148,41 @@ struct combined_damping {
 template <class Policy>
 inline constexpr bool dashpot_pulls = requires { requires Policy::pulls; };
 
+namespace detail {
 template <class Policy>
-concept damping_policy = requires(typename Policy::parameters const& p) {
-    p.validate("damping");
+concept damping_parameters = std::default_initializable<typename Policy::parameters> &&
+    requires(typename Policy::parameters const& p, std::string const& name) { p.validate(name); };
+template <class Policy>
+concept damping_flags = requires {
     { Policy::acts_on_pairs } -> std::convertible_to<bool>;
     { Policy::acts_on_particles } -> std::convertible_to<bool>;
-    { Policy::pair_force(p, 1.0, 1.0, 1.0, 1.0) } -> std::convertible_to<double>;
-    { Policy::particle_force(p, 1.0, 1.0) } -> std::convertible_to<double>;
 };
+template <class Policy, class T>
+concept damping_particle_force = requires(typename Policy::parameters const& p, T const& value) {
+    { Policy::particle_force(p, value, value) } -> std::convertible_to<T>;
+};
+/// Of policies with `needs_inertia`.
+template <class Policy, class T>
+concept damping_inertial_force = !requires { requires Policy::needs_inertia; } ||
+    requires(typename Policy::parameters const& p, T const& value) {
+        { Policy::particle_force(p, value, value, value) } -> std::convertible_to<T>;
+        { Policy::drag_rate(p) } -> std::convertible_to<double>;
+    };
+/// Of policies with `acts_on_pairs`.
+template <class Policy, class T>
+concept damping_pair_force = !requires { requires Policy::acts_on_pairs; } ||
+    requires(typename Policy::parameters const& p, T const& value) {
+        { Policy::pair_force(p, value, value, value, value) } -> std::convertible_to<T>;
+    };
+template <class Policy, class T>
+concept damping_forces = damping_particle_force<Policy, T> && damping_inertial_force<Policy, T> && damping_pair_force<Policy, T>;
+} // namespace detail
+
+/// A damping policy, the slot filled by no_damping, local_damping and others. It has `parameters` with
+/// `validate(std::string const& name)`, the constants acts_on_pairs and acts_on_particles, and the formulas above, which are
+/// asked for plain numbers and for packs; pair_force() only where acts_on_pairs is true.
+template <class Policy>
+concept damping_policy = detail::damping_parameters<Policy> && detail::damping_flags<Policy> &&
+    detail::damping_forces<Policy, double> && detail::damping_forces<Policy, pack<double, 4>>;
 
 } // namespace lacuna

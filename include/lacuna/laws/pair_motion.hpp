@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <concepts>
-
 #include <lacuna/core/vec.hpp>
 
 /// \file
@@ -99,44 +97,5 @@ T touching_distance_of(pair_motion<T, Dim> const& motion, [[maybe_unused]] H con
     else
         return motion.touching_distance();
 }
-
-namespace detail {
-template <class Law, int Dim>
-concept pair_law_common =
-    requires(typename Law::material const& material, typename Law::template parameters<double> const& parameters,
-             pair_motion<double, Dim> const& motion, typename Law::template history<double, Dim> const& history) {
-        material.validate("material");
-        { Law::combine(material, material, 1.0) } -> std::same_as<typename Law::template parameters<double>>;
-        { Law::template initial<double, Dim>(1.0, 1.0) } -> std::same_as<typename Law::template history<double, Dim>>;
-        { Law::evaluate(parameters, motion, history).normal_force } -> std::convertible_to<double>;
-        { dashpot_stiffness<Law>(parameters, motion, history) } -> std::convertible_to<double>;
-    };
-} // namespace detail
-
-/// A law of two particles in contact. It has
-///   - `material`: an aggregate of what one material contributes, with `validate(std::string const& name)`;
-///   - `parameters<T>`: an aggregate of T only, what the formula reads, made by `combine(material, material, thickness)`;
-///   - `history<T, Dim>`: an aggregate of T (and vec of T) only; a member `shear_force` turns with the pair;
-///     `initial<T, Dim>(distance, touching_distance)` is its state at zero force; while a member `touching_distance` is
-///     larger than the sum of the radii the pair stays in the table, else up to that sum and a skin;
-///   - `evaluate(parameters<T>, pair_motion<T, Dim>, history<T, Dim>) -> pair_response`: the formula;
-///   - `stiffness(parameters)`, the most that the tangent of the normal force becomes, or, of a law whose tangent grows with
-///     the overlap, `stiffness(parameters, pair_motion, history)`: see dashpot_stiffness() and require_stated_stiffness().
-template <class Law, int Dim>
-concept contact_law = detail::pair_law_common<Law, Dim> && requires(
-    typename Law::template parameters<double> const& parameters, pair_motion<double, Dim> const& motion,
-    vec<double, shear_dim<Dim>> const& shear) {
-    /// State that carries on the given forces of a bond that has just failed in shear.
-    { Law::hand_over(parameters, motion, 1.0, shear) } -> std::same_as<typename Law::template history<double, Dim>>;
-};
-
-/// A law of two bonded particles: as a contact law, and its answer says whether the bond fails.
-template <class Law, int Dim>
-concept bond_law = detail::pair_law_common<Law, Dim> && requires(
-    typename Law::template parameters<double> const& parameters, pair_motion<double, Dim> const& motion,
-    typename Law::template history<double, Dim> const& history) {
-    { Law::evaluate(parameters, motion, history).broken } -> std::convertible_to<bool>;
-    { Law::evaluate(parameters, motion, history).broken_in_tension } -> std::convertible_to<bool>;
-};
 
 } // namespace lacuna

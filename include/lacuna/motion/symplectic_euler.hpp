@@ -163,25 +163,37 @@ private:
 };
 
 namespace detail {
+template <int Dim>
 struct any_pair_force {
     record<double> operator()(int) const { return {}; }
 };
+template <>
+struct any_pair_force<3> {
+    struct force_and_torque {
+        record<double> force, torque;
+    };
+    force_and_torque operator()(int) const { return {}; }
+};
 struct any_damping {
     struct parameters {};
+    static constexpr bool acts_on_pairs = false;
     static constexpr bool acts_on_particles = false;
     template <class T>
     static T particle_force(parameters const&, T const&, T const&) {
         return T(0);
     }
 };
+template <class I, int Dim, bool WithEnergy>
+concept integrator_advance = requires(particle_store<double, Dim>& store, record_column<double> const* extra,
+                                      motion_report<double>& report, any_damping::parameters const& damping,
+                                      any_pair_force<Dim> const& pair_force) {
+    I::template advance<WithEnergy, any_damping>(store, std::size_t(0), 1, 1.0, pair_force, damping, extra, report);
+};
 } // namespace detail
 
-/// An integrator advances the particles of a chunk; see symplectic_euler::advance().
-template <class I>
-concept integrator = requires(particle_store<double, 2>& store, record_column<double> const* extra,
-                              motion_report<double>& report, detail::any_damping::parameters const& damping) {
-    I::template advance<false, detail::any_damping>(store, std::size_t(0), 1, 1.0, detail::any_pair_force{}, damping,
-                                                    extra, report);
-};
+/// An integrator, the slot filled by symplectic_euler and velocity_verlet: advances the particles of a chunk by one step;
+/// see symplectic_euler::advance(), also for what it has to write to the report.
+template <class I, int Dim = 2>
+concept integrator = detail::integrator_advance<I, Dim, false> && detail::integrator_advance<I, Dim, true>;
 
 } // namespace lacuna

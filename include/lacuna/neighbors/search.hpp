@@ -28,6 +28,22 @@ struct neighbor_pair {
     friend constexpr bool operator==(neighbor_pair const&, neighbor_pair const&) = default;
 };
 
+namespace detail {
+template <class S>
+concept search_types = std::floating_point<typename S::real_type> && (S::dim == 2 || S::dim == 3);
+template <class S>
+concept search_build = requires(S search, points_view<typename S::real_type, S::dim> const& points,
+                                typename S::real_type cutoff) { search.build(points, cutoff); };
+template <class S>
+concept search_pairs = requires(S const built, std::vector<neighbor_pair>& out) { built.pairs(out); };
+template <class S>
+concept search_touching_pairs =
+    requires(S search, points_view<typename S::real_type, S::dim> const& points,
+             std::span<typename S::real_type const> radii, typename S::real_type margin, std::vector<neighbor_pair>& out) {
+        search.touching_pairs(points, radii, margin, out);
+    };
+} // namespace detail
+
 /// A neighbour search, the slot filled by brute_force, kd_tree and cell_grid.
 ///
 /// * `build(points, cutoff)`, then `pairs(out)`: all pairs whose centres are at most `cutoff` apart [m].
@@ -38,14 +54,8 @@ struct neighbor_pair {
 /// is not finite and a radius that is negative or not finite (naming the particle), for a negative cutoff or
 /// margin, for a limit whose square overflows, and when there is not one radius per point.
 template <class S>
-concept neighbor_search = std::default_initializable<S> &&
-    requires(S search, S const built, points_view<typename S::real_type, S::dim> const& points,
-             std::span<typename S::real_type const> radii, typename S::real_type length,
-             std::vector<neighbor_pair>& out) {
-    search.build(points, length);
-    built.pairs(out);
-    search.touching_pairs(points, radii, length, out);
-};
+concept neighbor_search = std::default_initializable<S> && std::copyable<S> && detail::search_types<S> &&
+    detail::search_build<S> && detail::search_pairs<S> && detail::search_touching_pairs<S>;
 
 namespace detail {
 

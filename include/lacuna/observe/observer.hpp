@@ -3,6 +3,7 @@
 
 #include <concepts>
 #include <type_traits>
+#include <utility>
 
 #include <lacuna/core/standard.hpp>
 
@@ -49,6 +50,9 @@ constexpr bool wants_energy([[maybe_unused]] O const& o, [[maybe_unused]] long l
         return needs_energy<O>;
 }
 
+template <class Answer>
+inline constexpr bool is_answer_of_step = std::is_void_v<Answer> || std::is_same_v<Answer, run_control>;
+
 template <class Simulation, class Event, class O>
 constexpr void check_observer() {
     using type = std::remove_cvref_t<O>;
@@ -59,6 +63,9 @@ constexpr void check_observer() {
     if constexpr (has(wanted, stage::step))
         static_assert(requires(type & o, Simulation const& s) { o.on_step(s); },
                       "observer declares stage::step but on_step(simulation const&) cannot be called");
+    if constexpr (requires(type & o, Simulation const& s) { o.on_step(s); })
+        static_assert(is_answer_of_step<decltype(std::declval<type&>().on_step(std::declval<Simulation const&>()))>,
+                      "on_step must return void or run_control");
     if constexpr (has(wanted, stage::breakage))
         static_assert(requires(type & o, Event const& e, Simulation const& s) { o.on_break(e, s); },
                       "observer declares stage::breakage but on_break(break_event const&, simulation const&) "
@@ -91,7 +98,7 @@ void notify_break(O& o, Event const& event, Simulation const& s) {
 template <class O, class Simulation>
 bool notify_step(O& o, Simulation const& s) {
     if constexpr (has(O::stages, stage::step) && requires { o.on_step(s); }) {
-        if constexpr (std::is_void_v<decltype(o.on_step(s))>)
+        if constexpr (!std::is_same_v<decltype(o.on_step(s)), run_control>)
             o.on_step(s);
         else
             return o.on_step(s) != run_control::stop;

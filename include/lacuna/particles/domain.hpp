@@ -43,11 +43,24 @@ struct periodic_domain {
     };
 };
 
+namespace detail {
 template <class D>
-concept domain_policy = requires(typename D::template parameters<2> const& p) {
+concept domain_flag = requires {
     { D::periodic } -> std::convertible_to<bool>;
-    p.validate("domain");
 };
+template <class D, int Dim>
+concept domain_parameters = std::default_initializable<typename D::template parameters<Dim>> &&
+    requires(typename D::template parameters<Dim> const& p, std::string const& name) { p.validate(name); };
+template <class D, int Dim>
+concept domain_period = !requires { requires D::periodic; } || requires(typename D::template parameters<Dim> const& p) {
+    { p.period } -> std::convertible_to<vec<double, Dim>>;
+};
+} // namespace detail
+
+/// A domain policy, the slot filled by open_domain and periodic_domain: the constant `periodic`, and `parameters<Dim>` with
+/// `validate(std::string const& name)` and, where periodic, `period`, m.
+template <class D, int Dim = 2>
+concept domain_policy = detail::domain_flag<D> && detail::domain_parameters<D, Dim> && detail::domain_period<D, Dim>;
 
 /// The periods of a domain, and their inverses; 0 along open axes.
 template <class Real, int Dim>

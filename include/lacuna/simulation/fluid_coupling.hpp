@@ -41,7 +41,7 @@ public:
             remesher_.start(remeshing, make, real(thickness), *flow_, store.positions(), radii, pairs);
             map_throats(pairs);
             // So that step limits are those of the gaps that there are.
-            flow_->refresh_apertures(store.bodies(), pairs.normal_forces());
+            skip_idle_throats(store, pairs);
         }
     }
 
@@ -74,19 +74,19 @@ public:
         if constexpr (has_fluid<Model>)
             if (flow_ && remesher_.remesh(*flow_, store.positions(), store.radii().data(), pairs, number)) {
                 map_throats(pairs);
-                flow_->refresh_apertures(store.bodies(), pairs.normal_forces());
+                skip_idle_throats(store, pairs);
                 return true;
             }
         return false;
     }
 
-    /// Decides which throats are left out of a run of `duration` s, and takes up again those that have opened.
+    /// New apertures; leaves out the throats that do not matter, and takes up again those that have opened.
     template <class Pairs>
-    void skip_idle_throats(store_type const& store, Pairs const& pairs, double duration) {
+    void skip_idle_throats(store_type const& store, Pairs const& pairs) {
         if constexpr (has_fluid<Model>)
             if (flow_) {
                 flow_->refresh_apertures(store.bodies(), pairs.normal_forces());
-                flow_->skip_idle_throats(real(duration));
+                flow_->skip_idle_throats();
             }
     }
     /// Writes to, or reads from, an archive what a run changes.

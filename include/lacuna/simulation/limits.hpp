@@ -14,8 +14,8 @@ namespace lacuna {
 
 /// The time step limits of a simulation in its present state, s.
 struct time_step_limits {
-    double equation_9 = 0;  ///< as the paper gives it: shortest distance over wave speed, from the stiffest light pair counted
-    double equation_19 = 0; ///< as the paper gives it, for the fluid; infinite without flow
+    double wave_limit = 0; ///< the paper's eq. 9: shortest distance over wave speed, from the stiffest light pair counted
+    double mean_throat_limit = 0; ///< the paper's eq. 19, for the fluid; infinite where the flow has none
     double flow = 0;        ///< rigorous, for the fluid alone with its substeps and interval; infinite without flow
     double rigorous = 0;    ///< rigorous, for particles with rotation, damping and the stiffness of the fluid
     /// What a step has to stay below.
@@ -64,8 +64,9 @@ time_step_limits find_limits(Store const& store, Interactions const& interaction
     using damping_type = typename Model::damping;
     using point = vec<double, Model::dim>;
     constexpr bool dashed = damping_type::acts_on_pairs;
-    auto const dashpot = [&](double stiffness, double mass_i, double mass_j) {
-        return damping_type::pair_force(damping, stiffness, mass_i, mass_j, 1.0);
+    [[maybe_unused]] auto const dashpot = [&](double stiffness, double mass_i, double mass_j) {
+        if constexpr (dashed) return damping_type::pair_force(damping, stiffness, mass_i, mass_j, 1.0);
+        return 0.0;
     };
     auto &bound = scratch.stiff, &dashpots = scratch.viscous;
     bound.reset(store.size());
@@ -97,12 +98,12 @@ time_step_limits find_limits(Store const& store, Interactions const& interaction
             bound.add_turning(k, normal, stiffness.bending, stiffness.twisting);
         });
     time_step_limits result;
-    result.equation_9 = wave;
-    result.equation_19 = result.flow = std::numeric_limits<double>::infinity();
+    result.wave_limit = wave;
+    result.mean_throat_limit = result.flow = std::numeric_limits<double>::infinity();
     if constexpr (has_fluid<Model>)
         if (flow) {
             detail::add_fluid_stiffness(bound, store, *flow);
-            result.equation_19 = double(flow->equation_19_time_step());
+            if constexpr (requires { flow->mean_throat_limit(); }) result.mean_throat_limit = double(flow->mean_throat_limit());
             result.flow = flow_limit(*flow);
         }
     double const against_motion = 1 + std::fabs(damping_type::particle_force(damping, 1.0, -1.0));

@@ -45,7 +45,7 @@ public:
         simulation copy = this->simulated();
         // As many steps of the fluid take too long here.
         if constexpr (lacuna::has_fluid<Model>)
-            if (scenario_.water && !scenario_.water->implicit && copy.time_step() > 1000 * copy.flow().equation_19_time_step())
+            if (scenario_.water && !scenario_.water->implicit && copy.time_step() > 1000 * copy.flow().mean_throat_limit())
                 throw other_kind();
         step_facts f;
         try {

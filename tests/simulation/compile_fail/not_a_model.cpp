@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// refused: plane_or_space<M::dim>
+// refused: a model's dim must be 2 or 3
 
 #include <lacuna/simulation.hpp>
 
@@ -9,4 +9,4 @@ struct my_model : lacuna::default_model<2> {
 #endif
 };
 
-lacuna::simulation<my_model>* use = nullptr;
+void use(lacuna::simulation<my_model>& run) { run.step(); }

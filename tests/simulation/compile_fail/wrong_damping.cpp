@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// refused: damping_policy
+// refused: the damping needs: struct parameters
 
 #include <lacuna/simulation.hpp>
 
@@ -11,4 +11,4 @@ struct my_model : lacuna::default_model<2> {
 #endif
 };
 
-lacuna::simulation<my_model>* use = nullptr;
+void use(lacuna::simulation<my_model>& run) { run.step(); }

@@ -11,7 +11,7 @@
 
 #include <lacuna/core/fields.hpp>
 #include <lacuna/core/records.hpp>
-#include <lacuna/laws/pair_motion.hpp>
+#include <lacuna/laws/law_concepts.hpp>
 
 namespace lacuna {
 
@@ -29,6 +29,7 @@ public:
     template <class T>
     using history_of = typename Law::template history<T, Dim>;
     using history = history_of<Real>;
+    static_assert(detail::consists_of<history_of<lanes>, lanes>(), "a law's history must consist of T and vec<T, N>");
 
     /// Whether pairs have numbers.
     static constexpr bool labelled = bond_law<Law, Dim>;

@@ -2,11 +2,14 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <string>
+#include <type_traits>
+#include <utility>
 
 #include <lacuna/core/points.hpp>
 #include <lacuna/core/records.hpp>
@@ -21,30 +24,96 @@ struct any_pair_lookup {
 };
 } // namespace detail
 
-/// A flow solver of a model, the slot filled by explicit_flow, implicit_flow and no_flow:
-///   - `parameters`: an aggregate with defaults and `validate(std::string const& name)`; those of a fluid have
-///     `interval` and `bulk_modulus`, and its solver returns them as settings();
-///   - `solver<Real, Dim>`: made from (parameters, network, thickness, points, radii). step() is called once per step, and
-///     writes what the pores exert on the particles; map_throats() whenever the pairs' places in memory change. A step
-///     of 0 s lets pressures follow the volumes, and nothing flow.
+struct no_flow;
+
+namespace detail {
 template <class Policy>
-concept flow_policy = requires(typename Policy::parameters const& parameters,
-                               typename Policy::template solver<double, 2>& solver,
-                               typename Policy::template solver<double, 2> const& view,
-                               body_column<double> const& place, double const* normal_forces,
-                               record_column<double>& extra) {
-    parameters.validate("flow");
-    solver.map_throats(detail::any_pair_lookup{});
-    solver.refresh_apertures(place, normal_forces, 1);
-    solver.template step<true>(place, normal_forces, 1.0, 1, &extra);
-    solver.template step<false>(place, normal_forces, 1.0, 1, &extra);
-    { view.critical_time_step() } -> std::convertible_to<double>;
-    { view.equation_19_time_step() } -> std::convertible_to<double>;
-    { view.storage_energy() } -> std::convertible_to<double>;
-    { view.ledger() } -> std::convertible_to<flow_ledger<double>>;
-    { view.network() } -> std::convertible_to<pore_network<double, 2> const&>;
-    { solver.skip_idle_throats(1.0) } -> std::convertible_to<std::size_t>;
+concept flow_parameters_slot = std::default_initializable<typename Policy::parameters> &&
+    std::copyable<typename Policy::parameters> &&
+    requires(typename Policy::parameters const& p, std::string const& name) { p.validate(name); };
+template <class Policy, class Real, int Dim>
+concept flow_solver_slot =
+    std::copyable<typename Policy::template solver<Real, Dim>> &&
+    std::constructible_from<typename Policy::template solver<Real, Dim>, typename Policy::parameters const&,
+                            pore_network<Real, Dim>, Real, points_view<Real, Dim>, Real const*>;
+template <class Solver>
+concept flow_settings = requires(Solver const& view) {
+    { view.settings().interval } -> std::convertible_to<int>;
+    { view.settings().bulk_modulus } -> std::convertible_to<double>;
+    { view.settings().minimum_pressure } -> std::convertible_to<double>;
+    { view.settings().minimum_volume_fraction } -> std::convertible_to<double>;
 };
+template <class Solver, class Real, int Dim>
+concept flow_network = requires(Solver const& view) {
+    { view.network() } -> std::same_as<pore_network<Real, Dim> const&>;
+};
+template <class Solver>
+concept flow_map_throats = requires(Solver& solver) { solver.map_throats(any_pair_lookup{}); };
+template <class Solver, class Real>
+concept flow_refresh_apertures = requires(Solver& solver, body_column<Real> const& place, Real const* normal_forces) {
+    solver.refresh_apertures(place, normal_forces);
+};
+template <class Solver>
+concept flow_skip_idle_throats = requires(Solver& solver) { solver.skip_idle_throats(); };
+template <class Solver, class Real, bool WithLedger>
+concept flow_step = requires(Solver& solver, body_column<Real> const& place, Real const* normal_forces, Real dt,
+                             record_column<Real>* out) {
+    solver.template step<WithLedger>(place, normal_forces, dt, 1, out);
+};
+template <class Solver>
+concept flow_time_step = requires(Solver const& view) {
+    { view.critical_time_step() } -> std::convertible_to<double>;
+};
+template <class Solver, class Real, int Dim>
+concept flow_tractions = requires(Solver const& view, points_view<Real, Dim> points, Real const* radii) {
+    { view.pore_tractions(std::size_t(0), points, radii) } -> std::convertible_to<std::array<vec<Real, Dim>, std::size_t(Dim) + 1>>;
+};
+template <class Solver, class Real>
+concept flow_energies = requires(Solver const& view) {
+    { view.storage_energy() } -> std::convertible_to<double>;
+    { view.ledger() } -> std::convertible_to<flow_ledger<Real>>;
+};
+template <class Solver, class Real, int Dim>
+concept flow_restore = requires(Solver& solver, pore_network<Real, Dim> network, flow_ledger<Real> const& ledger) {
+    solver.restore(std::move(network), ledger);
+};
+struct any_archive {
+    using is_loading = std::false_type;
+    template <class... Members>
+    void operator()(Members&&...) const {}
+};
+template <class Solver>
+concept flow_serialize = requires(Solver& solver, any_archive& ar) { solver.serialize(ar); };
+
+template <class Solver, class Real, int Dim>
+concept flow_solver = flow_settings<Solver> && flow_network<Solver, Real, Dim> && flow_map_throats<Solver> &&
+    flow_refresh_apertures<Solver, Real> && flow_skip_idle_throats<Solver> && flow_step<Solver, Real, true> &&
+    flow_step<Solver, Real, false> && flow_time_step<Solver> && flow_tractions<Solver, Real, Dim> &&
+    flow_energies<Solver, Real> && flow_restore<Solver, Real, Dim> && flow_serialize<Solver>;
+} // namespace detail
+
+/// A flow solver of a model, the slot filled by explicit_flow, implicit_flow and no_flow. The policy has
+///   - `parameters`: an aggregate with defaults and `validate(std::string const& name)`;
+///   - `solver<Real, Dim>`: copyable, made from (parameters, network, thickness, points, radii).
+///
+/// A solver of a fluid has
+///   - `settings()`, its parameters, with `interval` (in one of so many steps fluid flows, for the time of all),
+///     `bulk_modulus` and, of remeshing, `minimum_pressure`, Pa, and `minimum_volume_fraction`, 1;
+///   - `network()`: the pores and throats in their present state;
+///   - `step<WithLedger>(bodies, normal_forces, dt, threads, tractions)`: called once per step, writes what the pores exert
+///     on the particles. A step of 0 s lets pressures follow the volumes, and nothing flow;
+///   - `map_throats(lookup)`, called whenever the pairs' places in memory change, `refresh_apertures(bodies, normal_forces)`
+///     and `skip_idle_throats()`, called at the start and whenever pairs or pores have changed: all three may do nothing;
+///   - `critical_time_step()` of the flow alone, s, and `pore_tractions(pore, points, radii)`, the forces on its corners for
+///     1 Pa in it, N: the stiffness of the fluid for the bound of the time step;
+///   - `storage_energy()`, J, and `ledger()`: for the energy ledger;
+///   - `restore(network, ledger)`: goes on with another mesh; `serialize(archive)`: what a run changes (core/state.hpp).
+///
+/// With `mean_throat_limit()` time_step_limits report it.
+template <class Policy, int Dim = 2, class Real = double>
+concept flow_policy = detail::flow_parameters_slot<Policy> &&
+    (std::same_as<Policy, no_flow> ||
+     (detail::flow_solver_slot<Policy, Real, Dim> && detail::flow_solver<typename Policy::template solver<Real, Dim>, Real, Dim>));
 
 /// No fluid: a dry body. Its network is empty and its steps do nothing.
 struct no_flow {
@@ -66,11 +135,10 @@ struct no_flow {
             if (tractions) std::fill(tractions->data(), tractions->data() + 4 * tractions->size(), Real(0));
         }
         Real critical_time_step() const noexcept { return std::numeric_limits<Real>::infinity(); }
-        Real equation_19_time_step() const noexcept { return std::numeric_limits<Real>::infinity(); }
         Real storage_energy() const noexcept { return Real(0); }
         flow_ledger<Real> const& ledger() const noexcept { return ledger_; }
         pore_network<Real, Dim> const& network() const noexcept { return network_; }
-        std::size_t skip_idle_throats(Real) noexcept { return 0; }
+        std::size_t skip_idle_throats() noexcept { return 0; }
         template <class Archive>
         void serialize(Archive&) noexcept {}
 

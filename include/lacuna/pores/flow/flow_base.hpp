@@ -103,7 +103,7 @@ public:
     /// \return how many throats are skipped
     /// \throws std::invalid_argument for a duration that is not positive.
     std::size_t skip_idle_throats(Real duration) {
-        require_positive("duration", double(duration));
+        if (!(duration > Real(0))) refuse("duration", double(duration), "> 0");
         for (std::size_t t = 0; t < network_.open_throats(); ++t) {
             double const limit = throat_time_step(network_, t, parameters_.bulk_modulus);
             network_.idle[t] = limit <= parameters_.skip_ratio * double(duration) ? 0 : 1;
@@ -113,6 +113,9 @@ public:
         clusters_.update(network_);
         return network_.open_throats() - throats_.active_throats();
     }
+
+    /// The same for the duration that the parameters state.
+    std::size_t skip_idle_throats() { return skip_idle_throats(Real(parameters_.duration)); }
 
     /// Forces on the corners of a pore for 1 Pa in it, N; also of a pore at its least volume.
     std::array<vec<Real, Dim>, std::size_t(Dim) + 1> pore_tractions(std::size_t pore, points_view<Real, Dim> points,
@@ -127,9 +130,9 @@ public:
 
     /// Eq. 19 as printed, s: not safe where apertures differ. Skipped throats count.
     /// With a law of sections, which have no aperture in its sense, infinite.
-    Real equation_19_time_step() const {
+    Real mean_throat_limit() const {
         if constexpr (throat_section_law<aperture_type>) return std::numeric_limits<Real>::infinity();
-        return lacuna::equation_19_time_step(network_, parameters_.bulk_modulus, parameters_.conductivity);
+        return lacuna::mean_throat_limit(network_, parameters_.bulk_modulus, parameters_.conductivity);
     }
 
     template <class Archive>

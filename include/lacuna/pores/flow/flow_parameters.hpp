@@ -22,6 +22,9 @@ struct flow_parameters {
     double minimum_volume_fraction = 1e-3;
     double minimum_pressure = -std::numeric_limits<double>::infinity(); ///< the fluid tears below, Pa; <= 0
     double initial_pressure = 0; ///< on top of the network's own, Pa; nowhere below minimum_pressure
+    /// Of the run, s: throats through which practically nothing passes within it are left out, see skip_idle_throats(); > 0,
+    /// infinite: none is. It does not depend on how a run is cut into calls of run().
+    double duration = std::numeric_limits<double>::infinity();
     double skip_ratio = 1e6; ///< see skip_idle_throats(); > 0, infinity to skip none
     /// Flow steps within one step, between which the change of volume is spread evenly; 0: as many as are safe.
     int substeps = 1;
@@ -47,6 +50,7 @@ struct flow_parameters {
             refuse(name + ".initial_pressure", initial_pressure, ">= minimum_pressure");
         require_in(name + ".substeps", substeps, 0, 1000000);
         require_in(name + ".interval", interval, 1, 1000000);
+        if (!(duration > 0)) refuse(name + ".duration", duration, "> 0");
         if (!(skip_ratio > 0)) refuse(name + ".skip_ratio", skip_ratio, "> 0");
         if (!(merge_conductance > 0)) refuse(name + ".merge_conductance", merge_conductance, "> 0");
         aperture.validate(name + ".aperture");

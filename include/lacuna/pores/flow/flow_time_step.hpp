@@ -45,7 +45,7 @@ double throat_time_step(pore_network<Real, Dim> const& net, std::size_t throat, 
 /// where apertures differ; flow_critical_time_step() is safe.
 /// \param bulk_modulus K_f, Pa; \param conductivity k, m/(s Pa)
 template <class Real, int Dim>
-Real equation_19_time_step(pore_network<Real, Dim> const& net, double bulk_modulus, double conductivity) noexcept {
+Real mean_throat_limit(pore_network<Real, Dim> const& net, double bulk_modulus, double conductivity) noexcept {
     double limit = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < net.pores(); ++i) {
         double aperture = 0, diameter = 0;
