@@ -86,3 +86,13 @@ TEST_CASE("strip order keeps the neighbours of a particle within two strips", "[
     std::vector<vec<double, 2>> const bad{{0, 0}, {std::numeric_limits<double>::quiet_NaN(), 0}};
     REQUIRE_THROWS_WITH(lacuna::strip_order(lacuna::view_points(bad)), contains_text("particle 1.position"));
 }
+
+TEST_CASE("strip order does not ask in which order points come, however near they are", "[particles]") {
+    // Less the body's end, -1e-30 and 0 are one number.
+    std::vector<vec<double, 2>> const points{{0, 0}, {3, 0}, {0.5, 0.75}, {-0.5, 0.75}, {-1, 0}, {-1e-30, 0}, {0.25, -1e-30}, {0.5, -0.75}};
+    auto turned = points;
+    std::reverse(turned.begin(), turned.end());
+    auto const order = lacuna::strip_order(lacuna::view_points(points)), other = lacuna::strip_order(lacuna::view_points(turned));
+    for (std::size_t k = 0; k < order.size(); ++k)
+        REQUIRE(order[k] == std::int32_t(points.size()) - 1 - other[k]);
+}

@@ -141,10 +141,10 @@ std::vector<std::int32_t> strip_order(points_view<Real, 2> points) {
     };
     std::vector<key> keyed(points.size());
     for (std::size_t i = 0; i < points.size(); ++i) {
-        double const depth = double(points(i, along)) - low[along];
-        auto const strip =
-            strips < 1e9 && width > 0 ? std::int64_t(std::clamp(depth / width, -1e9, 1e9)) : std::int64_t(0);
-        double const place = double(points(i, across)) - low[across];
+        // As they are given: a difference may be rounded to that of another point.
+        double const depth = double(points(i, along)), place = double(points(i, across));
+        auto const strip = strips < 1e9 && width > 0 ? std::int64_t(std::clamp((depth - low[along]) / width, -1e9, 1e9))
+                                                     : std::int64_t(0);
         keyed[i] = {strip, strip % 2 ? -place : place, depth, std::int32_t(i)};
     }
     std::sort(keyed.begin(), keyed.end());
