@@ -8,6 +8,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -235,7 +236,7 @@ double particle_runner<Model>::settled_step() const {
     try {
         return sim_->time_step();
     } catch (std::invalid_argument const& bad) {
-        if (!(scenario_.simulation.time_step > 0))
+        if (!(scenario_.simulation.time_step > 0) && std::string_view(bad.what()).find("without any stiffness") != std::string_view::npos)
             refuse("simulation.time_step", "\"auto\"", "a number of seconds: nothing here has a stiffness to take it from");
         throw refusal("simulation." + std::string(bad.what()));
     }

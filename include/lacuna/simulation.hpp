@@ -623,7 +623,12 @@ private:
         control_.looked(assumed, *time_step_, rigorous, accurate, chooses_step(), filled());
         interactions_.watch_overlaps(control_.assumed().overlap);
     }
+    /// Whether numbers can be divided by a step.
+    static bool is_step(double step) noexcept { return real(step) > real(0) && std::isfinite(1 / real(step)); }
     void change_step(double step) {
+        if (!is_step(step))
+            throw_unstable(store_, now(), -1, "no time step is short enough any more",
+                           "a stiffness, a mass, a damping or a speed has left the range of " + precision_text<real>());
         clock_ = {time(), step_, clock_.last};
         time_step_ = step;
     }
@@ -710,8 +715,12 @@ private:
                                                      : "the flow between pores") +
                        "; eq. 9 gives " + to_text(found.wave_limit) + " s), or allow_unstable_step");
         double const step = given ? parameters_.time_step : chosen_step(critical);
-        if (!std::isfinite(step))
+        if (std::isinf(step))
             refuse("time_step", 0.0, "given: without any stiffness there is no critical time step");
+        if (!is_step(step))
+            refuse("time_step", step,
+                   "longer, to be a step at all: a stiffness, a mass, a damping or a speed leaves the range of " +
+                       precision_text<real>());
         time_step_ = step;
         looked(assumed, found.rigorous);
     }

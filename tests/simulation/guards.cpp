@@ -72,6 +72,16 @@ TEST_CASE("an energy that is not a number ends a run", "[guards]") {
     REQUIRE_THAT(said(run, 1), contains_text("an energy is not a number") && contains_text("single precision"));
 }
 
+TEST_CASE("a bound of zero is no time step", "[guards]") {
+    // The square of the dashpot's rate is infinite, the bound zero: all would stand still for ever.
+    auto p = springs<plane_viscous>(1e6, 0);
+    p.damping.ratio = 1e200;
+    lacuna::simulation<plane_viscous> run(chain<2>(2), p);
+    REQUIRE_THROWS_WITH(run.time_step(), contains_text("time_step = ") && contains_text("leaves the range of double precision"));
+    p.damping.ratio = 0.5;
+    REQUIRE(lacuna::simulation<plane_viscous>(chain<2>(2), p).time_step() > 0);
+}
+
 TEST_CASE("a shallow truss of two bars snaps through beyond its limit load, not below", "[guards]") {
     // Half span b, height h: F(y) = 2 k y (L0 / L - 1), L^2 = b^2 + y^2, is largest where L^3 = L0 b^2.
     double const b = 2, h = 0.3, k = 1, l0 = std::hypot(b, h), l = std::cbrt(l0 * b * b), y = std::sqrt(l * l - b * b);
