@@ -161,6 +161,16 @@ public:
         share += std::fabs(whole);
         return !(inside > error + share * (2e-7L * nearest + shift_ + 1e-9L * reach_ * reach_));
     }
+    /// Whether a simplex has no size but for rounding: over a straight side of the hull such are left out, each by itself, and
+    /// one that stays may have a side to the body where another was.
+    bool is_flat(simplex const& s) const {
+        std::array<std::array<number, dim>, dim> m;
+        number longest = 0;
+        for (std::size_t k = 0; k < dim; ++k) m[k] = apart(s[k + 1], s[0]);
+        for (std::size_t k = 0; k <= dim; ++k)
+            for (std::size_t j = 0; j < k; ++j) longest = std::max(longest, std::sqrt(squared(apart(s[j], s[k]))));
+        return std::fabs(determinant(m)) <= 1e-9L * std::pow(longest, number(Dim));
+    }
     /// Whether no particle is beyond a side of a simplex, opposite its corner c.
     bool is_within(simplex const& s, std::size_t c, std::int32_t p) const {
         auto turned = s;
@@ -176,26 +186,26 @@ public:
 
     void check(lacuna::pore_mesh<Dim> const& mesh, bool covers) const {
         auto const count = std::int32_t(p_.radius.size());
-        fuzz::expect(mesh.neighbours.size() == mesh.size());
+        fuzz::expect(mesh.neighbours.size() == mesh.size(), "a list of neighbours for each simplex");
         for (std::size_t t = 0; t < mesh.size(); ++t) {
             auto const& s = mesh.simplices[t];
             for (std::size_t c = 0; c <= dim; ++c) {
-                fuzz::expect(s[c] >= 0 && s[c] < count && std::count(s.begin(), s.end(), s[c]) == 1);
+                fuzz::expect(s[c] >= 0 && s[c] < count && std::count(s.begin(), s.end(), s[c]) == 1, "corners are particles, each once");
                 auto const other = mesh.neighbours[t][c];
                 if (other < 0) {
-                    for (std::int32_t p = 0; covers && p < count; ++p)
-                        if (!std::count(s.begin(), s.end(), p)) fuzz::expect(is_within(s, c, p));
+                    for (std::int32_t p = 0; covers && !is_flat(s) && p < count; ++p)
+                        if (!std::count(s.begin(), s.end(), p)) fuzz::expect(is_within(s, c, p), "the mesh covers the hull");
                     continue;
                 }
-                fuzz::expect(std::size_t(other) < mesh.size());
+                fuzz::expect(std::size_t(other) < mesh.size(), "neighbours are simplices");
                 auto const& back = mesh.neighbours[std::size_t(other)];
-                fuzz::expect(std::find(back.begin(), back.end(), std::int32_t(t)) != back.end());
+                fuzz::expect(std::find(back.begin(), back.end(), std::int32_t(t)) != back.end(), "neighbours know each other");
             }
             std::array<std::array<number, dim>, dim> m;
             for (std::size_t k = 0; k < dim; ++k) m[k] = apart(s[k + 1], s[0]);
-            fuzz::expect(determinant(m) >= -1e-17L * product(m));
+            fuzz::expect(determinant(m) >= -1e-17L * product(m), "sizes are above zero");
             for (std::int32_t p = 0; p < count; ++p)
-                if (!std::count(s.begin(), s.end(), p)) fuzz::expect(is_outside(s, p));
+                if (!std::count(s.begin(), s.end(), p)) fuzz::expect(is_outside(s, p), "no particle enters an orthogonal sphere");
         }
     }
 };
