@@ -7,11 +7,11 @@ add_library(lacuna_numerics INTERFACE)
 if(CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
   target_compile_options(lacuna_warnings INTERFACE -Wall -Wextra -Wshadow -Wpedantic
     $<$<BOOL:${LACUNA_WERROR}>:-Werror>)
-  # g++ 12 takes inserts into std::string for copies onto themselves (GCC bug 105651), and guesses wrongly of what it has
-  # inlined elsewhere: the former is silent, the latter no error.
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
-    target_compile_options(lacuna_warnings INTERFACE -Wno-restrict -Wno-error=maybe-uninitialized -Wno-error=array-bounds
-      -Wno-error=stringop-overflow -Wno-error=stringop-overread)
+    # Programs with a precompiled header read it there: nothing may come before that.
+    set(compiled_before "$<TARGET_PROPERTY:PRECOMPILE_HEADERS>$<TARGET_PROPERTY:PRECOMPILE_HEADERS_REUSE_FROM>")
+    target_compile_options(lacuna_warnings INTERFACE
+      "$<$<NOT:$<BOOL:${compiled_before}>>:SHELL:-include \"${CMAKE_CURRENT_LIST_DIR}/quiet_string.hpp\">")
   endif()
   # No test of errno and no care for traps, so that square roots and selections become vector instructions. Products
   # and sums may be contracted: a run has the same bits on any number of threads because all of them run the same

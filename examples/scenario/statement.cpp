@@ -66,7 +66,7 @@ template <class T>
 void shorten(std::vector<T>& list) {
     for (T const& value : list)
         if (lacuna::first_difference(list.front(), value, "")) return;
-    if (list.size() > 1) list.resize(1);
+    if (list.size() > 1) list.erase(list.begin() + 1, list.end());
 }
 
 /// Bonds have values of their own, or none.
