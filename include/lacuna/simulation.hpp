@@ -28,6 +28,7 @@
 #include <lacuna/observe/observer.hpp>
 #include <lacuna/particles/spatial_order.hpp>
 #include <lacuna/simulation/fluid_coupling.hpp>
+#include <lacuna/simulation/forward.hpp>
 #include <lacuna/simulation/ledger_keeper.hpp>
 #include <lacuna/simulation/limits.hpp>
 #include <lacuna/simulation/parameters.hpp>
@@ -41,6 +42,7 @@
 
 namespace lacuna {
 
+LACUNA_BEGIN_PACKS
 /// A simulator, composed at compile time from the parts that Model names (see default_model). What is no `model` is refused
 /// with one message, which names the slot.
 ///
@@ -777,5 +779,7 @@ public:
     explicit simulation(Arguments const&...) : simulation<default_model<space>>({}) {}
 };
 /// \endcond
+
+LACUNA_END_PACKS
 
 } // namespace lacuna

@@ -121,6 +121,20 @@ struct value_of<pack<T, W>> {
     using type = T;
 };
 
+/// \def LACUNA_BEGIN_PACKS
+/// Opens a namespace that is part of lacuna and named after the width of packs; LACUNA_END_PACKS closes it. Classes whose
+/// layout goes by native_width stand in it: objects compiled for other registers (-march) cannot be linked with each other
+/// where they share such a class, as their names differ. Still compile all of a program with one -march: functions that do
+/// not go by the width have the same names in all objects.
+#if defined(__AVX512F__)
+#define LACUNA_BEGIN_PACKS inline namespace packs_of_64_bytes {
+#elif defined(__AVX__)
+#define LACUNA_BEGIN_PACKS inline namespace packs_of_32_bytes {
+#else
+#define LACUNA_BEGIN_PACKS inline namespace packs_of_16_bytes {
+#endif
+#define LACUNA_END_PACKS }
+
 /// How many numbers of type T the widest register of the target holds.
 template <class T>
 inline constexpr int native_width =

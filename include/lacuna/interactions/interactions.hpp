@@ -29,6 +29,7 @@ namespace lacuna {
 
 struct interactions_archive;
 
+LACUNA_BEGIN_PACKS
 /// Bonds and contacts: their tables, histories, forces, and the hand-over from bond to contact.
 template <class Real, int Dim, contact_law<Dim> ContactLaw, bond_law<Dim> BondLaw, damping_policy Damping,
           neighbor_search Search, domain_policy Domain = open_domain>
@@ -261,7 +262,7 @@ public:
     verlet_list<search_type> const& neighbors() const noexcept { return neighbors_; }
 
 private:
-    friend struct interactions_archive; // writes and reads the state, in a header of its own
+    friend struct lacuna::interactions_archive; // writes and reads the state, in a header of its own
     using contact_entry = typename contact_table::entry;
     using bond_entry = typename bond_table::entry;
     using pending_event = bond_failure<contact_entry, Dim>;
@@ -396,5 +397,6 @@ private:
     Real watched_ = 1;
     std::array<double, 2> fracture_energy_{};
 };
+LACUNA_END_PACKS
 
 } // namespace lacuna

@@ -12,6 +12,7 @@
 
 namespace lacuna {
 
+LACUNA_BEGIN_PACKS
 /// The fluid of a simulation and its exchange with particles and pairs; does nothing in a model without fluid and
 /// until the pores are filled.
 template <class Model>
@@ -105,5 +106,6 @@ private:
     std::optional<flow_type> flow_;
     remesher<flow_type, real, Model::dim> remesher_;
 };
+LACUNA_END_PACKS
 
 } // namespace lacuna

@@ -12,6 +12,7 @@
 
 namespace lacuna {
 
+LACUNA_BEGIN_PACKS
 /// The forces of all pairs: where they are kept, and how they are summed on the particles.
 template <class Real, int Dim>
 class force_store {
@@ -203,5 +204,6 @@ private:
     bool streaming_ = false, again_ = false, normals_kept_ = false;
     int threads_ = 1;
 };
+LACUNA_END_PACKS
 
 } // namespace lacuna

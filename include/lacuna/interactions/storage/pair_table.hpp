@@ -15,6 +15,7 @@
 
 namespace lacuna {
 
+LACUNA_BEGIN_PACKS
 /// The pairs to which one law applies, with what the law remembers, in the order in which the step visits them.
 ///
 /// Pairs are sorted by (i, j), i < j, and cut into chunks: chunk c holds the pairs whose i lies in the c-th run of
@@ -278,5 +279,6 @@ private:
     std::vector<std::size_t> chunk_begin_{0}, chunk_pairs_; // first pack of each, and the end; number of pairs of each
     field_packs<history_of, Real, width> state_;
 };
+LACUNA_END_PACKS
 
 } // namespace lacuna

@@ -14,6 +14,7 @@
 
 namespace lacuna {
 
+LACUNA_BEGIN_PACKS
 /// The forces of the pores on their corners, and their sums on the particles. As force_rows has it for the pairs: per
 /// particle a row of entries, in the order of summation, all rows of a group of particles equally long (filled up with a
 /// zero force).
@@ -173,5 +174,6 @@ private:
     std::vector<std::size_t> begin_, met_;
     aligned_vector<Real> force_; // and a zero
 };
+LACUNA_END_PACKS
 
 } // namespace lacuna

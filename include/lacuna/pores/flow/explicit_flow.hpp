@@ -17,6 +17,7 @@
 
 namespace lacuna {
 
+LACUNA_BEGIN_PACKS
 /// The paper's explicit scheme, eq. 14 to 16: all flows from the old pressures, then all pressures.
 ///
 /// A pore's pressure below `minimum_pressure` is held there; the volume that the liquid does not fill is remembered
@@ -115,6 +116,7 @@ private:
         return count > 1 ? int(count) : 1;
     }
 };
+LACUNA_END_PACKS
 
 /// Flow policy: explicit_flow_solver with an aperture law of one's choice.
 template <aperture_law Aperture>

@@ -27,6 +27,7 @@
 
 namespace lacuna {
 
+LACUNA_BEGIN_PACKS
 /// What the flow solvers share: geometry, apertures, boundaries, tractions, balances. They differ in how the flows of a
 /// step come about.
 template <class Real, int Dim, class Parameters>
@@ -369,5 +370,6 @@ private:
     std::vector<pore_sums<Real>> pore_sums_;
     std::vector<throat_sums<Real>> throat_sums_;
 };
+LACUNA_END_PACKS
 
 } // namespace lacuna

@@ -52,6 +52,7 @@ struct implicit_flow_parameters : flow_parameters<Aperture> {
     }
 };
 
+LACUNA_BEGIN_PACKS
 /// Backward Euler for eq. 14 and 15: all flows from the new pressures, of
 ///
 ///   (V / K_f + dt L) p_new = V / K_f p_old + dt (sources) - dV,
@@ -249,6 +250,7 @@ private:
     std::vector<double> pressure_, residual_, change_, flow_;
     double left_ = 0, scale_ = 0;
 };
+LACUNA_END_PACKS
 
 /// Flow policy: implicit_flow_solver with an aperture law of one's choice.
 template <aperture_law Aperture>

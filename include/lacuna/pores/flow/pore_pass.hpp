@@ -34,6 +34,7 @@ body_column<Real> particle_records(points_view<Real, Dim> points, Real const* ra
     return place;
 }
 
+LACUNA_BEGIN_PACKS
 /// The pass over the pores: whole packs. The last pore fills up the last one, with a least volume that no pore has: its
 /// volume and pressure never change, so it adds nothing to any sum.
 template <class Real, int Dim>
@@ -232,5 +233,6 @@ private:
     std::size_t packs_ = 0;
     Real minimum_share_ = Real(1);
 };
+LACUNA_END_PACKS
 
 } // namespace lacuna

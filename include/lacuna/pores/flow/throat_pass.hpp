@@ -21,6 +21,7 @@
 
 namespace lacuna {
 
+LACUNA_BEGIN_PACKS
 /// The passes over the throats that fluid can pass, and what they read besides the network. A pack is passed over when all
 /// of its throats are skipped; a skipped throat in another pack has both its ends in one pore.
 ///
@@ -235,5 +236,6 @@ private:
     aligned_vector<Real> factor_; // k / l, 0 of what fills up the last pack
     std::vector<std::int32_t> every_, active_;
 };
+LACUNA_END_PACKS
 
 } // namespace lacuna

@@ -32,6 +32,7 @@ struct bare_throat {
     std::int32_t source = -1;          ///< as in throat_boundary
 };
 
+LACUNA_BEGIN_PACKS
 /// Pores and throats of a body, one array per quantity (structure of arrays).
 ///
 /// A throat lies between two particles in the plane, three in space. Its pores are [0] to the left of the line from
@@ -95,6 +96,7 @@ struct pore_network {
         for (auto& source : sources) ar(source.value, source.volume, source.rate);
     }
 };
+LACUNA_END_PACKS
 
 namespace detail {
 

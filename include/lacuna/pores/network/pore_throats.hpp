@@ -12,6 +12,7 @@
 
 namespace lacuna {
 
+LACUNA_BEGIN_PACKS
 /// The throats of each pore, pack by pack as the flow step reads them: of every pack row() throats of each of its pores.
 /// A pore's throats come in ascending order, first those at whose side 1 it is, from which fluid flows out of it, then
 /// those at whose side 0 it is. A row is filled up with a throat beyond the last, in which nothing flows.
@@ -67,5 +68,6 @@ private:
     aligned_vector<std::int32_t> throat_;
     aligned_vector<float> outflows_;
 };
+LACUNA_END_PACKS
 
 } // namespace lacuna
