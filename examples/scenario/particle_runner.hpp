@@ -65,7 +65,7 @@ public:
                 build(p);
             }
         }
-        settled_step();
+        check_flow_step(settled_step());
         for (probe const& p : s.probes)
             if constexpr (lacuna::has_fluid<Model>) check_place(p, sim_->flow().network());
     }
@@ -100,6 +100,7 @@ private:
     void fill();
     void drive_on(scenario const& before);
     double settled_step() const;
+    void check_flow_step(double step) const;
     void tell_row(results& out);
     void save(results& out, bool regular);
     double read(probe const& p) const;
@@ -239,6 +240,22 @@ double particle_runner<Model>::settled_step() const {
         if (!(scenario_.simulation.time_step > 0) && std::string_view(bad.what()).find("without any stiffness") != std::string_view::npos)
             refuse("simulation.time_step", "\"auto\"", "a number of seconds: nothing here has a stiffness to take it from");
         throw refusal("simulation." + std::string(bad.what()));
+    }
+}
+
+/// A step that takes more flow steps than can be made is not begun.
+template <class Model>
+void particle_runner<Model>::check_flow_step([[maybe_unused]] double step) const {
+    if constexpr (lacuna::has_fluid<Model>) {
+        auto const& water = scenario_.water;
+        // Of merged pores the flow solver knows the limit, once it has made a step.
+        if (!water || water->implicit || water->time_step > 0 || water->merge_conductance) return;
+        constexpr int most = lacuna::explicit_flow_solver<typename Model::real, 2, chosen_aperture>::most_substeps;
+        double const limit = double(lacuna::flow_critical_time_step(sim_->flow().network(), water->bulk_modulus));
+        if (step <= most / 1.01 * limit) return;
+        refuse("fluid.solver", "\"explicit\"",
+               "\"implicit\": the stable limit of the explicit flow is " + lacuna::to_text(limit) + " s, and the particles' step of " +
+                   lacuna::to_text(step) + " s would take more than " + std::to_string(most) + " flow steps");
     }
 }
 

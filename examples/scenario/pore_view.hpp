@@ -5,9 +5,10 @@
 #include <string>
 
 #include <lacuna/core/points.hpp>
+#include <lacuna/pores/mesh/no_pores.hpp>
+#include <lacuna/pores/mesh/triangulation.hpp>
 #include <lacuna/pores/network/flow_boundaries.hpp>
 #include <lacuna/pores/network/pore_network.hpp>
-#include <lacuna/pores/mesh/triangulation.hpp>
 
 #include "frames.hpp"
 #include "scenario.hpp"
@@ -59,11 +60,11 @@ void add_sources(fluid const& f, lacuna::pore_network<Real, 2>& net, lacuna::poi
     }
 }
 
-/// The network between particles.
+/// The network between particles. \throws std::invalid_argument
 template <class Real>
 lacuna::pore_network<Real, 2> make_network(fluid const& f, lacuna::points_view<Real, 2> points, Real const* radii) {
     auto const mesh = lacuna::triangulate_body(points, radii);
-    if (mesh.size() == 0) refuse("fluid", "{...}", "left out: no three particles enclose a pore");
+    if (mesh.size() == 0) lacuna::refuse_no_pores(points, radii);
     auto net = f.drained ? lacuna::make_pore_network(
                                mesh, points, radii,
                                lacuna::flow_boundaries(lacuna::reservoir("boundary", any_throat{}, f.boundary_pressure)))

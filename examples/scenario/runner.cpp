@@ -33,9 +33,11 @@ std::unique_ptr<runner> build_runner(scenario const& s) {
     return single ? make<2, float>(s) : make<2, double>(s);
 }
 
-/// What the library calls flow is [fluid] of the scenario.
+/// What the library calls flow is [fluid] of the scenario, and without it there are no pores.
 std::string in_words_of_the_scenario(std::string const& message) {
-    return message.rfind("flow.", 0) == 0 ? "fluid." + message.substr(5) : message;
+    if (message.rfind("flow.", 0) == 0) return "fluid." + message.substr(5);
+    bool const of_pores = message.rfind("number of pores", 0) == 0 || message.rfind("size of the pore", 0) == 0;
+    return of_pores ? "fluid: " + message : message;
 }
 
 } // namespace

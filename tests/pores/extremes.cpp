@@ -394,7 +394,11 @@ TEST_CASE("the check of a triangulation finds a wrong diagonal, a hole, a lost p
 
 TEST_CASE("particles without pores are told why, and by their numbers") {
     auto const refuse = [](body<2> const& b) {
-        refuse_no_pores(view_points(b.x), b.r.data(), [](std::size_t i) { return i + 100; });
+        try {
+            refuse_no_pores(view_points(b.x), b.r.data());
+        } catch (particle_refusal const& bad) {
+            throw bad.named([](std::size_t i) { return i + 100; });
+        }
     };
     body<2> b;
     b.add({0, 1});
@@ -406,11 +410,11 @@ TEST_CASE("particles without pores are told why, and by their numbers") {
     REQUIRE_THROWS_WITH(refuse(b), contains_text("particle 100 at (0, 1) m") && contains_text("particle 102 at (2, 1) m") &&
                                        contains_text("on one line"));
     b.add({0, 90});
-    REQUIRE_THROWS_WITH(refuse(b), contains_text("near enough"));
+    REQUIRE_THROWS_WITH(refuse(b), contains_text("too far from each other"));
     body<3> c;
     for (int k = 0; k < 9; ++k) c.add({double(k % 3), double(k / 3), 7});
-    REQUIRE_THROWS_WITH(refuse_no_pores(view_points(c.x), c.r.data(), [](std::size_t i) { return i; }),
-                        contains_text("in one plane"));
+    REQUIRE_THROWS_WITH(refuse_no_pores(view_points(c.x), c.r.data()),
+                        contains_text("particle 0 at (0, 0, 7) m to particle 8 at (2, 2, 7) m, lie in one plane"));
 
     // A simplex without size is no pore.
     pore_mesh<2> flat;

@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <stdexcept>
+#include <string>
 #include <utility>
 
+#include <lacuna/core/error.hpp>
+#include <lacuna/core/particle_refusal.hpp>
 #include <lacuna/model.hpp>
 #include <lacuna/particles/store.hpp>
 #include <lacuna/pores/mesh/no_pores.hpp>
@@ -32,12 +37,13 @@ public:
     void fill(store_type const& store, Pairs const& pairs, typename Model::flow::parameters const& parameters,
               remesh_parameters const& remeshing, double thickness, Make const& make) {
         auto const* radii = store.radii().data();
-        auto network = make(store.positions(), radii);
-        bool dry = false;
-        if constexpr (requires { parameters.dry(); }) dry = parameters.dry();
-        if (network.pores() == 0 && !dry)
-            refuse_no_pores(store.positions(), radii, [&](std::size_t i) { return store.id(i); });
-        flow_.emplace(parameters, std::move(network), real(thickness), store.positions(), radii);
+        by_id(store, [&] {
+            auto network = make(store.positions(), radii);
+            bool dry = false;
+            if constexpr (requires { parameters.dry(); }) dry = parameters.dry();
+            if (network.pores() == 0 && !dry) refuse_no_pores(store.positions(), radii);
+            flow_.emplace(parameters, std::move(network), real(thickness), store.positions(), radii);
+        });
         if constexpr (has_fluid<Model>) {
             remesher_.start(remeshing, make, real(thickness), *flow_, store.positions(), radii, pairs);
             map_throats(pairs);
@@ -56,6 +62,8 @@ public:
     /// Geometry, apertures, flow, pressures; then their forces, written to `out`, a record per particle. With an
     /// interval n the last of every n steps lets fluid flow, for the time of all n.
     /// \param number of the step, from 0
+    /// \throws unstable_run when throats have opened so far that the step takes more flow steps than can be made;
+    ///         std::invalid_argument in step 0
     template <bool WithLedger, class Pairs>
     void step(store_type const& store, Pairs const& pairs, real dt, long long number, int threads,
               record_column<real>& out) {
@@ -63,17 +71,24 @@ public:
             if (flow_) {
                 int const interval = flow_->settings().interval;
                 real const flow_time = (number + 1) % interval == 0 ? dt * real(interval) : real(0);
-                flow_->template step<WithLedger>(store.bodies(), pairs.normal_forces(), flow_time, threads, &out);
+                try {
+                    flow_->template step<WithLedger>(store.bodies(), pairs.normal_forces(), flow_time, threads, &out);
+                } catch (std::invalid_argument const& why) {
+                    if (number == 0) throw;
+                    // It is the run that has led there, not the input.
+                    throw unstable_run("unstable run at step " + std::to_string(number) + ": " + why.what(), number, -1);
+                }
             }
     }
 
     /// Gives the fluid a new mesh where remesh_parameters ask for one.
     /// \param number of the step that has been made
     /// \return whether the mesh is another
+    /// \throws unstable_run when the particles are where no network can be made
     template <class Pairs>
     bool remesh(store_type const& store, Pairs const& pairs, long long number) {
         if constexpr (has_fluid<Model>)
-            if (flow_ && remesher_.remesh(*flow_, store.positions(), store.radii().data(), pairs, number)) {
+            if (flow_ && make_anew(store, pairs, number)) {
                 map_throats(pairs);
                 skip_idle_throats(store, pairs);
                 return true;
@@ -103,6 +118,25 @@ public:
     }
 
 private:
+    /// Calls it; a refusal that names particles by their places in the store names them by their ids.
+    template <class Call>
+    static auto by_id(store_type const& store, Call const& call) {
+        try {
+            return call();
+        } catch (particle_refusal const& bad) {
+            throw bad.named([&](std::size_t i) { return store.id(i); });
+        }
+    }
+    template <class Pairs>
+    bool make_anew(store_type const& store, Pairs const& pairs, long long number) {
+        try {
+            return by_id(store, [&] { return remesher_.remesh(*flow_, store.positions(), store.radii().data(), pairs, number); });
+        } catch (std::invalid_argument const& why) {
+            // It is the run that has led there, not the input.
+            throw unstable_run("pores made anew after step " + std::to_string(number) + ": " + why.what(), number, -1);
+        }
+    }
+
     std::optional<flow_type> flow_;
     remesher<flow_type, real, Model::dim> remesher_;
 };

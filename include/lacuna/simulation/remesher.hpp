@@ -5,19 +5,17 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <stdexcept>
-#include <string>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
-#include <lacuna/core/error.hpp>
 #include <lacuna/core/points.hpp>
 #include <lacuna/core/state.hpp>
-#include <lacuna/pores/remesh/carry_fluid.hpp>
-#include <lacuna/pores/network/network_shape.hpp>
-#include <lacuna/pores/remesh/remesh.hpp>
 #include <lacuna/pores/flow/tractions.hpp>
+#include <lacuna/pores/mesh/no_pores.hpp>
+#include <lacuna/pores/network/network_shape.hpp>
+#include <lacuna/pores/remesh/carry_fluid.hpp>
+#include <lacuna/pores/remesh/remesh.hpp>
 
 namespace lacuna {
 
@@ -52,7 +50,7 @@ public:
     /// After step `number`: looks at the mesh when it is time to, and gives the flow solver another one where it has
     /// to. The pressures' forces on the particles are not touched: they change with the next step of the flow.
     /// \return whether the mesh is another; then throats are to be mapped to pairs anew
-    /// \throws unstable_run when the particles are where no network can be made
+    /// \throws std::invalid_argument when the particles are where no network can be made
     template <class Pairs>
     bool remesh(Flow& flow, points_view<Real, Dim> points, Real const* radii, Pairs const& pairs, long long number) {
         if (!maker_ || (number + 1) % parameters_.interval != 0) return false;
@@ -62,7 +60,8 @@ public:
             watch_.unfit(old, points, radii, thickness_, Real(p.minimum_volume_fraction), visit(pairs, points.size()));
         needed = needed || (parameters_.on_broken_bond && pairs.bonds().size() != bonds_);
         if (!needed) return false;
-        auto network = make_anew(points, radii, number);
+        auto network = make_(maker_.get(), points, radii);
+        if (network.pores() == 0) refuse_no_pores(points, radii);
         bool const another = network.corner != old.corner;
         if (another) {
             keep_sizes(old, network);
@@ -107,14 +106,6 @@ public:
     }
 
 private:
-    network_type make_anew(points_view<Real, Dim> points, Real const* radii, long long number) const {
-        try {
-            return make_(maker_.get(), points, radii);
-        } catch (std::invalid_argument const& why) {
-            // It is the run that has led there, not the input.
-            throw unstable_run("pores made anew after step " + std::to_string(number) + ": " + why.what(), number, -1);
-        }
-    }
     void keep_places(points_view<Real, Dim> points) {
         made_at_.resize(points.size());
         for (std::size_t k = 0; k < points.size(); ++k) made_at_[k] = points[k];

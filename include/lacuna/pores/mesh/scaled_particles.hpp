@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include <lacuna/core/error.hpp>
+#include <lacuna/core/particle_refusal.hpp>
 #include <lacuna/core/points.hpp>
 #include <lacuna/pores/mesh/exact_signs.hpp>
 
@@ -175,22 +175,20 @@ bool lie_flat(scaled_particles<Dim> const& all) {
 }
 
 /// Squares of lengths, and squares of them, have to be numbers.
+/// \throws particle_refusal
 template <class Real, int Dim>
 void require_particles(points_view<Real, Dim> points, Real const* radii) {
     constexpr double most = 1e70;
+    auto const refuse_it = [](char const* field, std::size_t i, double value, char const* rule) {
+        throw particle_refusal(std::string(field) + " of particle #", value, rule, {std::int32_t(i)});
+    };
     for (std::size_t i = 0; i < points.size(); ++i) {
         for (int axis = 0; axis < Dim; ++axis) {
             double const x = double(points(i, axis));
-            if (!(std::fabs(x) <= most)) {
-                require_finite("position of particle " + std::to_string(i), x);
-                refuse("position of particle " + std::to_string(i), x, "from -1e70 to 1e70 m");
-            }
+            if (!(std::fabs(x) <= most)) refuse_it("position", i, x, std::isfinite(x) ? "from -1e70 to 1e70 m" : "finite");
         }
         double const r = double(radii[i]);
-        if (!(r >= 0 && r <= most)) {
-            require_not_negative("radius of particle " + std::to_string(i), r);
-            refuse("radius of particle " + std::to_string(i), r, "at most 1e70 m");
-        }
+        if (!(r >= 0 && r <= most)) refuse_it("radius", i, r, std::isfinite(r) && r > 0 ? "at most 1e70 m" : ">= 0 and finite");
     }
 }
 

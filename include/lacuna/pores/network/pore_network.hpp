@@ -11,6 +11,7 @@
 #include <vector>
 
 #include <lacuna/core/error.hpp>
+#include <lacuna/core/particle_refusal.hpp>
 #include <lacuna/core/points.hpp>
 #include <lacuna/pores/network/boundary_throat.hpp>
 #include <lacuna/pores/network/flow_source.hpp>
@@ -150,20 +151,21 @@ void finish(pore_network<Real, Dim>& net, std::vector<throat_record<Real, Dim>> 
 
 namespace detail {
 
-/// Names the corners of a simplex that has no size.
+/// Names the corners of a simplex that has no size. \throws particle_refusal, always
 template <std::size_t Corners, class Real, int Dim>
 [[noreturn]] void refuse_flat(std::array<std::int32_t, Corners> const& corners, points_view<Real, Dim> points,
                               double size) {
     std::string who;
     for (auto const i : corners) {
-        who.append(who.empty() ? "" : ", ").append(std::to_string(i)).append(" at (");
+        who.append(who.empty() ? "# at (" : ", # at (");
         for (int axis = 0; axis < Dim; ++axis)
             who.append(axis == 0 ? "" : ", ").append(to_text(double(points(std::size_t(i), axis))));
         who.append(")");
     }
-    refuse("size of the pore between the particles " + who + " m", size,
-           std::string("> 0: in their order the corners of a mesh turn counter-clockwise, and are not on a ") +
-               (Dim == 2 ? "line" : "plane"));
+    throw particle_refusal("size of the pore between the particles " + who + " m", size,
+                           std::string("> 0: in their order the corners of a mesh turn counter-clockwise, and are not on a ") +
+                               (Dim == 2 ? "line" : "plane"),
+                           {corners.begin(), corners.end()});
 }
 
 } // namespace detail
@@ -192,7 +194,8 @@ pore_network<Real, Dim> make_pore_network(pore_mesh<Dim> const& mesh, points_vie
             if (i < 0 || std::size_t(i) >= points.size())
                 refuse((Dim == 2 ? "corner of triangle " : "corner of tetrahedron ") + std::to_string(t),
                        std::to_string(i), "the number of a particle");
-            require_positive("radius of particle " + std::to_string(i), double(radii[i]));
+            if (double const r = double(radii[i]); !(r > 0) || !std::isfinite(r))
+                throw particle_refusal("radius of particle #", r, "> 0 and finite", {i});
             net.corner[c][t] = i;
             auto const x = points[std::size_t(i)];
             for (int axis = 0; axis < Dim; ++axis) {
