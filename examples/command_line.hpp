@@ -2,10 +2,19 @@
 #pragma once
 
 #include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <iostream>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#if __has_include(<unistd.h>)
+#include <sys/stat.h>
+#include <unistd.h>
+#endif
 
 #include <CLI/CLI.hpp>
 
@@ -13,7 +22,7 @@
 #include <lacuna/core/version.hpp>
 
 /// \file
-/// What the command lines of all programs have in common: version, refusals in one line, the option that was meant.
+/// What the command lines of all programs have in common: version, refusals in one line, the word that was meant.
 
 namespace programs {
 
@@ -46,6 +55,40 @@ inline std::string version_text(std::string const& program) {
     return text.append(", with ").append(parts.empty() ? "no components" : parts);
 }
 
+/// " (did you mean --force?)", or nothing.
+inline std::string meant(std::string const& word, std::vector<std::string> const& known) {
+    std::string const near = lacuna::nearest_word(word, known);
+    return near.empty() ? "" : " (did you mean " + near + "?)";
+}
+/// "a, b or c"
+inline std::string list_of(std::vector<std::string> const& words) {
+    std::string text;
+    for (std::size_t k = 0; k < words.size(); ++k) text += (k == 0 ? "" : k + 1 < words.size() ? ", " : " or ") + words[k];
+    return text;
+}
+/// The place of a word among those that it may be.
+/// \throws std::invalid_argument "--case word: must be a, b or c (did you mean b?)"
+inline std::size_t place_of(std::string const& option, std::string const& word, std::vector<std::string> const& known) {
+    auto const at = std::find(known.begin(), known.end(), word);
+    if (at != known.end()) return std::size_t(at - known.begin());
+    throw std::invalid_argument(option + " " + (word.empty() ? "''" : word) + ": must be " + list_of(known) + meant(word, known));
+}
+
+/// Sees to it that all that was said on stdout is there. A reader who has gone, as of a pipe, misses nothing.
+/// \throws std::runtime_error where it cannot be written, as on a full disk
+inline void finish_output() {
+    errno = 0;
+    std::cout.flush();
+    bool const sound = std::cout.good() && std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
+    if (sound) return;
+    int const reason = errno;
+#if __has_include(<unistd.h>)
+    struct stat out {};
+    if (fstat(fileno(stdout), &out) == 0 && (S_ISFIFO(out.st_mode) || S_ISSOCK(out.st_mode))) return;
+#endif
+    throw std::runtime_error(std::string("cannot write to the standard output") + (reason != 0 ? std::string(": ") + std::strerror(reason) : ""));
+}
+
 namespace detail {
 
 /// The options, and the names of commands, that may stand on the command line of an app or of its commands.
@@ -58,21 +101,19 @@ inline void names_of(CLI::App const& app, std::vector<std::string>& options, std
     }
 }
 
-/// " (did you mean --force?)", or nothing, for the first word of a command line that nothing is called.
-inline std::string meant(CLI::App const& app, int argc, char const* const* argv) {
+/// What is wrong with the first word of a command line that nothing is called, in one line; empty: all are known.
+inline std::string unknown_word(CLI::App const& app, int argc, char const* const* argv) {
     std::vector<std::string> options, commands;
     names_of(app, options, commands);
-    auto const is = [](std::vector<std::string> const& names, std::string const& word) {
-        return std::find(names.begin(), names.end(), word) != names.end();
-    };
     for (int k = 1; k < argc; ++k) {
         std::string_view const all = argv[k];
         std::string const word(all.substr(0, all.find('=')));
         bool const option = word.size() > 2 && word.rfind("--", 0) == 0;
         bool const command = k == 1 && !commands.empty() && !word.empty() && word[0] != '-';
-        if (!(option && !is(options, word)) && !(command && !is(commands, word))) continue;
-        std::string const near = lacuna::nearest_word(word, option ? options : commands);
-        return near.empty() ? "" : " (did you mean " + near + "?)";
+        auto const& known = option ? options : commands;
+        if ((!option && !command) || std::find(known.begin(), known.end(), word) != known.end()) continue;
+        std::string const rule = option ? "an option: --help shows all" : list_of(commands);
+        return word + ": must be " + rule + meant(word, known);
     }
     return "";
 }
@@ -81,18 +122,20 @@ inline std::string meant(CLI::App const& app, int argc, char const* const* argv)
 
 /// Lets CLI11 read the command line.
 /// \return false: help or the version was asked for, and is on stdout
-/// \throws std::invalid_argument with one line
+/// \throws std::invalid_argument with one line; as finish_output()
 inline bool parse(CLI::App& app, int argc, char const* const* argv) {
     try {
         app.parse(argc, argv);
         return true;
     } catch (CLI::Success const& asked) {
         app.exit(asked);
+        finish_output();
         return false;
     } catch (CLI::ParseError const& bad) {
         std::string line = bad.what();
         std::replace(line.begin(), line.end(), '\n', ' ');
-        throw std::invalid_argument(line + detail::meant(app, argc, argv));
+        std::string const unknown = detail::unknown_word(app, argc, argv);
+        throw std::invalid_argument(unknown.empty() ? line : unknown);
     }
 }
 

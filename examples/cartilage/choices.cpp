@@ -180,12 +180,18 @@ std::vector<choice_field> make_fields() {
     return f;
 }
 
+/// " (did you mean fill?)", or nothing.
+std::string meant(std::string_view word, std::vector<std::string> const& known) {
+    std::string const near = lacuna::nearest_word(word, known);
+    return near.empty() ? "" : " (did you mean " + near + "?)";
+}
+
 double value_of(choice_field const& f, std::string_view text) {
     std::string const word(text);
     if (f.type == kind::word) {
         for (std::size_t k = 0; k < f.words.size(); ++k)
             if (f.words[k] == text) return double(k);
-        lacuna::refuse(f.name, word.empty() ? "''" : word, f.rule);
+        lacuna::refuse(f.name, word.empty() ? "''" : word, std::string(f.rule) + meant(word, {f.words.begin(), f.words.end()}));
     }
     auto const value = lacuna::number_of(word);
     bool const whole = f.type != kind::count || (value && *value == std::floor(*value));
@@ -215,8 +221,12 @@ choice_field const& find_choice(std::string_view name) {
     for (choice_field const& f : choice_fields())
         if (f.name == name) return f;
     std::string rule = "one of";
-    for (choice_field const& f : choice_fields()) rule += (f.name == choice_fields().front().name ? " " : ", ") + std::string(f.name);
-    lacuna::refuse("name of a choice", name.empty() ? "''" : name, rule);
+    std::vector<std::string> names;
+    for (choice_field const& f : choice_fields()) {
+        rule += (names.empty() ? " " : ", ") + std::string(f.name);
+        names.emplace_back(f.name);
+    }
+    lacuna::refuse("name of a choice", name.empty() ? "''" : name, rule + meant(name, names));
 }
 
 void validate(choices const& c) {

@@ -8,6 +8,7 @@
 #include <lacuna/draw/picture.hpp>
 #include <lacuna/observe/stop_signal.hpp>
 
+#include "../command_line.hpp"
 #include "calibrate.hpp"
 #include "options.hpp"
 #include "output.hpp"
@@ -82,16 +83,23 @@ int calibrate(int argc, char** argv) {
     return cartilage::calibrate(*o);
 }
 
+int obey(int argc, char** argv) {
+    std::string_view const command = argc > 1 ? argv[1] : "";
+    if (command == "study") return study(argc - 1, argv + 1);
+    if (command == "sensitivity") return sensitivity(argc - 1, argv + 1);
+    if (command == "calibrate") return calibrate(argc - 1, argv + 1);
+    auto const options = cartilage::parse_command_line(argc, argv);
+    if (!options) return done;
+    return options->what == cartilage::command::run ? run(*options) : pack(*options);
+}
+
 } // namespace
 
 int main(int argc, char** argv) {
     try {
-        if (argc > 1 && std::string_view(argv[1]) == "study") return study(argc - 1, argv + 1);
-        if (argc > 1 && std::string_view(argv[1]) == "sensitivity") return sensitivity(argc - 1, argv + 1);
-        if (argc > 1 && std::string_view(argv[1]) == "calibrate") return calibrate(argc - 1, argv + 1);
-        auto const options = cartilage::parse_command_line(argc, argv);
-        if (!options) return done;
-        return options->what == cartilage::command::run ? run(*options) : pack(*options);
+        int const status = obey(argc, argv);
+        programs::finish_output();
+        return status;
     } catch (cartilage::usage_error const& bad) {
         std::fprintf(stderr, "cartilage: %s\n", bad.what());
         return bad_request;

@@ -31,11 +31,7 @@ void add_specimen_options(CLI::App& app, words& w) {
 options understand(words const& w, command what) {
     options o = understand_model(w);
     o.what = what;
-    try {
-        o.zone = lacuna::parse_cartilage_zone(w.zone);
-    } catch (std::invalid_argument const&) {
-        refuse("--zone", w.zone, "surface, middle, deep or whole");
-    }
+    o.zone = zone_of("--zone", w.zone);
     std::uint64_t const largest_seed = UINT64_MAX;
     o.seed = whole_number<std::uint64_t>("--seed", w.seed, 0, largest_seed, "a whole number >= 0");
     o.quiet = w.quiet;
@@ -66,7 +62,7 @@ std::optional<options> parse_command_line(int argc, char const* const* argv) {
     words w;
     CLI::App app("Articular cartilage under load: a bonded-particle model with pore fluid, after Hong, Evans and "
                  "Mente.\nResults go into a directory: summary.json, cracks.csv, pictures as PNG and SVG.\n"
-                 "Exit status: 0 done, 2 bad request, 3 run became unstable, 128 + number of a signal that stopped it.",
+                 "Exit status: 0 done, 1 a file could not be written, 2 bad request, 3 run became unstable, 128 + number of a signal that stopped it.",
                  "cartilage");
     app.require_subcommand(1);
     app.failure_message(CLI::FailureMessage::simple);
@@ -74,11 +70,11 @@ std::optional<options> parse_command_line(int argc, char const* const* argv) {
 
     CLI::App& run = *app.add_subcommand("run", "Load a specimen and see where it cracks");
     add_specimen_options(run, w);
-    run.add_option("--load", w.load, "on the top row, at once")->required()->type_name("MPA");
+    run.add_option("--load", w.load, "on the top row, MPa")->required()->type_name("MPA");
     add_run_options(run, w);
-    run.add_option("--time-step", w.time_step, "in place of 0.4 of the rigorous bound")->type_name("PS");
+    run.add_option("--time-step", w.time_step, "ps, in place of 0.4 of the rigorous bound")->type_name("PS");
     run.add_flag("--allow-unstable-step", w.allow_unstable_step, "run even with a time step above the rigorous bound");
-    run.add_option("--threads", w.threads, "the results do not depend on it (1)")->type_name("N");
+    run.add_option("--threads", w.threads, "1 to 1024; the results do not depend on it (1)")->type_name("N");
     run.add_option("--picture-every", w.picture_every, "a damage picture every so many steps")->type_name("STEPS");
 
     CLI::App& pack = *app.add_subcommand("pack", "Build a specimen, draw it and give its statistics");

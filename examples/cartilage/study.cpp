@@ -6,11 +6,12 @@
 #include <atomic>
 #include <cstdio>
 #include <fstream>
-#include <iterator>
 #include <optional>
-#include <system_error>
+#include <stdexcept>
+#include <string>
 #include <utility>
 
+#include <lacuna/core/text.hpp>
 #include <lacuna/core/whole_file.hpp>
 #include <lacuna/observe/progress.hpp>
 #include <lacuna/observe/stop_signal.hpp>
@@ -32,9 +33,12 @@ constexpr char const* result_name = "study.json";
 /// \throws usage_error
 study_result read_study(std::string const& directory, char const* what) {
     std::string const path = directory + "/" + result_name;
-    std::ifstream in(path, std::ios::binary);
-    std::string const text{std::istreambuf_iterator<char>(in), {}};
-    if (!in) throw usage_error(std::string(what) + directory + ": has no " + result_name + " that can be read");
+    std::string text;
+    try {
+        text = lacuna::read_file(path, what);
+    } catch (std::invalid_argument const&) {
+        throw usage_error(std::string(what) + directory + ": has no " + result_name + " that can be read");
+    }
     try {
         return study_from(text);
     } catch (std::runtime_error const& bad) {

@@ -14,11 +14,7 @@ namespace {
 std::vector<lacuna::cartilage_zone> zones_of(std::string const& list) {
     std::vector<lacuna::cartilage_zone> zones;
     for (std::string const& name : parts_of(list, ',')) {
-        try {
-            zones.push_back(lacuna::parse_cartilage_zone(name));
-        } catch (std::invalid_argument const&) {
-            refuse("--zones", list, "surface, middle, deep or whole, or some of them with commas between");
-        }
+        zones.push_back(zone_of("--zones", name));
     }
     std::sort(zones.begin(), zones.end());
     if (std::adjacent_find(zones.begin(), zones.end()) != zones.end())

@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
 
 #include <CLI/CLI.hpp>
@@ -14,28 +12,43 @@
 
 #include "../command_line.hpp"
 #include "presets.hpp"
+#include "study_table.hpp"
 
 namespace cartilage {
 
 namespace {
 
+/// \throws usage_error, std::invalid_argument
 std::string contents_of(std::string const& path) {
-    std::ifstream file(path, std::ios::binary);
-    std::string text{std::istreambuf_iterator<char>(file), {}};
-    if (!file) refuse("--choices", path, "a file that can be read");
+    std::string text;
+    try {
+        text = lacuna::read_file(path, "--choices");
+    } catch (std::invalid_argument const&) {
+        refuse("--choices", path, "a file that can be read");
+    }
+    if (text.empty()) refuse("--choices", path, "a file with lines \"name = value\": it is empty");
+    return std::string(lacuna::plain_text(text, path));
+}
+
+/// The open choices, for --help.
+std::string choices_help() {
+    std::string text = "Choices for --set and --choices, with defaults:\n";
+    choices const plain;
+    for (choice_field const& f : choice_fields()) {
+        std::string line = "  " + std::string(f.name) + "=" + f.text(plain);
+        if (!f.unit.empty()) line.append(" ").append(f.unit);
+        if (line.size() < 40) line.resize(40, ' ');
+        text.append(line).append("  ").append(f.rule).append("\n");
+    }
     return text;
 }
 
 /// The choices of preset, file and single settings, in this order.
 choices understand_choices(model_words const& w) {
     choices c;
-    try {
-        c = preset_choices(w.preset);
-    } catch (std::invalid_argument const&) {
-        std::string names;
-        for (auto name : preset_names()) names += (names.empty() ? "" : " or ") + std::string(name);
-        refuse("--preset", w.preset, names.c_str());
-    }
+    std::vector<std::string> presets;
+    for (auto name : preset_names()) presets.emplace_back(name);
+    c = preset_choices(presets[programs::place_of("--preset", w.preset, presets)]);
     if (!w.file.empty()) set_choices(c, contents_of(w.file), w.file);
     for (std::string const& one : w.set) {
         try {
@@ -62,7 +75,9 @@ double positive_number(char const* option, std::string const& word, char const* 
 }
 
 bool parse_words(CLI::App& app, int argc, char const* const* argv) {
-    app.set_version_flag("--version", programs::version_text("cartilage"));
+    auto const version = programs::version_text("cartilage");
+    app.set_version_flag("--version", version);
+    for (auto* command : app.get_subcommands([](CLI::App const*) { return true; })) command->set_version_flag("--version", version);
     try {
         return programs::parse(app, argc, argv);
     } catch (std::invalid_argument const& bad) {
@@ -80,10 +95,17 @@ std::vector<std::string> parts_of(std::string const& list, char separator) {
     return parts;
 }
 
+lacuna::cartilage_zone zone_of(std::string const& option, std::string const& word) {
+    std::vector<std::string> names;
+    for (auto const zone : all_zones) names.emplace_back(lacuna::to_string(zone));
+    return all_zones[programs::place_of(option, word, names)];
+}
+
 void add_model_options(CLI::App& app, model_words& w) {
-    app.add_option("--length", w.length, "of the specimen, horizontal (as the choice domain says: 120)")
+    app.footer(choices_help());
+    app.add_option("--length", w.length, "of the specimen, horizontal, um (as the choice domain says: 120)")
         ->type_name("UM");
-    app.add_option("--height", w.height, "of the specimen (as the choice domain says: 300)")->type_name("UM");
+    app.add_option("--height", w.height, "of the specimen, um (as the choice domain says: 300)")->type_name("UM");
     app.add_option("--preset", w.preset, "literal: as the paper says; lattice: equal radii, no chance; calibrated: nearest to the paper, if --dry (literal)")
         ->type_name("NAME");
     app.add_option("--choices", w.file, "file of choices that differ from the preset, a line 'name = value' each")
@@ -95,7 +117,7 @@ void add_model_options(CLI::App& app, model_words& w) {
 }
 
 void add_run_options(CLI::App& app, model_words& w) {
-    app.add_option("--duration", w.duration, "simulated time (until quiet, 40 at most)")->type_name("NS");
+    app.add_option("--duration", w.duration, "simulated time, ns (until quiet, 40 at most)")->type_name("NS");
     app.add_flag("--dry", w.dry, "without pore fluid");
 }
 

@@ -36,6 +36,8 @@ void validate_specimen(options const& o);
 
 /// Lets CLI11 read the command line; false: help was asked for, and is on stdout. \throws usage_error
 bool parse_words(CLI::App& app, int argc, char const* const* argv);
+/// \throws std::invalid_argument for what is no zone, with the one that was meant
+lacuna::cartilage_zone zone_of(std::string const& option, std::string const& word);
 /// "a,b" in two; empty text has one empty part.
 std::vector<std::string> parts_of(std::string const& list, char separator);
 

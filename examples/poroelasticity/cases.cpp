@@ -25,6 +25,20 @@ void add_size(outcome& o, Simulation const& sim) {
     o.steps = sim.steps();
 }
 
+/// A run that ends at time `last` is now at time `now`.
+template <class Simulation>
+void show(programs::terminal_progress& progress, Simulation const& sim, double now, double last) {
+    if (sim.steps() == 1) progress.begin(1, sim.size());
+    progress.expect(double(sim.steps()) * last / now);
+    progress.passed(sim.steps());
+}
+/// A flow becomes steady: its error falls by the same factor in each step, from 1 to `least`.
+template <class Simulation>
+void show_error(programs::terminal_progress& progress, Simulation const& sim, double error, double least) {
+    double const share = std::clamp(std::log(error) / std::log(least), 1e-3, 1.0);
+    show(progress, sim, std::isfinite(share) ? share : 1e-3, 1);
+}
+
 /// Error of the whole curve: the largest of its points' relative ones.
 void add_worst(outcome& o, std::string const& name, outcome_curve const& c) {
     if (c.points.empty()) return; // stopped before the first one
@@ -37,7 +51,7 @@ void add_worst(outcome& o, std::string const& name, outcome_curve const& c) {
 
 } // namespace
 
-outcome run_terzaghi(bool quick) {
+outcome run_terzaghi(bool quick, programs::terminal_progress& progress) {
     terzaghi_setup setup;
     setup.layers = quick ? 20 : 40;
     setup.cells = quick ? 1 : 3;
@@ -51,9 +65,11 @@ outcome run_terzaghi(bool quick) {
     o.title = "Terzaghi: column of " + std::to_string(setup.layers) + " layers of pores, drained at its top";
     o.x_label = "T = c t / H²";
     outcome_curve settlement{"degree of consolidation U", {}}, base{"pressure at the base / load", {}};
-    for (double const time : logarithmic_times(0.01, 1, 41)) {
+    constexpr double last = 1;
+    for (double const time : logarithmic_times(0.01, last, 41)) {
         while (o.goes_on() && column.time() < time * (1 - 1e-9)) {
             column.sim().step();
+            show(progress, column.sim(), column.time(), last);
             fluid.enter(column.sim().flow().network(), column.sim().time_step());
         }
         if (column.sim().steps() == 0) break;
@@ -76,7 +92,7 @@ outcome run_terzaghi(bool quick) {
     return o;
 }
 
-outcome run_mandel(bool quick) {
+outcome run_mandel(bool quick, programs::terminal_progress& progress) {
     mandel_setup setup;
     setup.half_layers = quick ? 12 : 24;
     setup.cells = quick ? 1 : 6;
@@ -92,9 +108,11 @@ outcome run_mandel(bool quick) {
     o.x_label = "T = c t / L²";
     outcome_curve middle{"pressure in the middle / undrained pressure", {}};
     double highest = 0, when = 0;
-    for (double const time : logarithmic_times(0.02, quick ? 0.2 : 0.3, 33)) {
+    double const last = quick ? 0.2 : 0.3;
+    for (double const time : logarithmic_times(0.02, last, 33)) {
         while (o.goes_on() && slab.time() < time * (1 - 1e-9)) {
             slab.step();
+            show(progress, slab.sim(), slab.time(), last);
             fluid.enter(slab.sim().flow().network(), slab.sim().time_step());
             if (slab.sim().steps() % 20 != 0 || slab.time() < 0.02) continue;
             double const p = slab.middle_pressure();
@@ -119,7 +137,7 @@ outcome run_mandel(bool quick) {
     return o;
 }
 
-outcome run_cryer(bool quick) {
+outcome run_cryer(bool quick, programs::terminal_progress& progress) {
     cryer_setup setup;
     setup.radius = quick ? 8 : 20;
     setup.medium.shear_stiffness = setup.medium.normal_stiffness;
@@ -135,9 +153,11 @@ outcome run_cryer(bool quick) {
     o.x_label = "T = c t / R²";
     outcome_curve middle{"pressure in the middle / load", {}};
     double highest = 0, when = 0;
-    for (double const time : logarithmic_times(0.005, quick ? 0.1 : 0.3, 34)) {
+    double const last = quick ? 0.1 : 0.3;
+    for (double const time : logarithmic_times(0.005, last, 34)) {
         while (o.goes_on() && disc.time() < time * (1 - 1e-9)) {
             disc.sim().step();
+            show(progress, disc.sim(), disc.time(), last);
             fluid.enter(disc.sim().flow().network(), disc.sim().time_step());
             double const p = disc.middle_pressure();
             if (p <= highest) continue;
@@ -160,7 +180,7 @@ outcome run_cryer(bool quick) {
     return o;
 }
 
-outcome run_darcy(bool quick) {
+outcome run_darcy(bool quick, programs::terminal_progress& progress) {
     outcome o;
     o.name = "darcy";
     o.x_label = "x / length";
@@ -168,9 +188,12 @@ outcome run_darcy(bool quick) {
 
     lattice_medium const medium;
     lattice_flow lattice(quick ? 8 : 16, 2, medium, 1e3);
+    constexpr double settled = 1e-10;
+    auto const lattice_error = [&] { return std::fabs(lattice.permeability(0) / lattice.permeability(1) - 1); };
     do {
         lattice.sim().step();
-    } while (o.goes_on() && !(std::fabs(lattice.permeability(0) / lattice.permeability(1) - 1) < 1e-10));
+        show_error(progress, lattice.sim(), lattice_error(), settled);
+    } while (o.goes_on() && !(lattice_error() < settled));
     if (o.stopped) {
         add_size(o, lattice.sim());
         return o;
@@ -183,10 +206,12 @@ outcome run_darcy(bool quick) {
     darcy_body body(setup);
     o.title = "Darcy: steady flow from left to right through a random packing of bonded discs";
     fluid_account fluid(body.sim().flow().network(), setup.medium.bulk_modulus);
+    auto const body_error = [&] { return std::fabs(body.outflow() / body.inflow() - 1); };
     do {
         body.sim().step();
         fluid.enter(body.sim().flow().network(), body.sim().time_step());
-    } while (o.goes_on() && !(std::fabs(body.outflow() / body.inflow() - 1) < 1e-10) && body.sim().steps() < 2000);
+        show_error(progress, body.sim(), body_error(), settled);
+    } while (o.goes_on() && !(body_error() < settled) && body.sim().steps() < 2000);
     if (o.stopped) {
         add_mass(o, fluid);
         add_size(o, body.sim());

@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "../terminal_progress.hpp"
 #include "outcome.hpp"
 
 namespace poroelasticity {
 
 /// \name Runs of the cases. \param quick a coarse body and a short run: the same code in a second
+/// \param progress is told how far the run is
 /// \{
-outcome run_terzaghi(bool quick);
-outcome run_mandel(bool quick);
-outcome run_cryer(bool quick);
-outcome run_darcy(bool quick);
+outcome run_terzaghi(bool quick, programs::terminal_progress& progress);
+outcome run_mandel(bool quick, programs::terminal_progress& progress);
+outcome run_cryer(bool quick, programs::terminal_progress& progress);
+outcome run_darcy(bool quick, programs::terminal_progress& progress);
 /// \}
 
 } // namespace poroelasticity

@@ -10,6 +10,7 @@
 #include <lacuna/observe/stop_signal.hpp>
 
 #include "../command_line.hpp"
+#include "../terminal_progress.hpp"
 #include "cases.hpp"
 #include "output.hpp"
 
@@ -17,19 +18,13 @@ namespace {
 
 enum exit_status { done = 0, failed = 1, bad_request = 2 };
 
-/// A request that cannot be met; the message is one line.
-class usage_error : public std::runtime_error {
-public:
-    using std::runtime_error::runtime_error;
-};
-
 struct request {
     std::string name, out = ".";
     bool quick = false, json = false, force = false;
-    poroelasticity::outcome (*run)(bool quick) = nullptr;
+    poroelasticity::outcome (*run)(bool quick, programs::terminal_progress& progress) = nullptr;
 };
 
-/// \return nothing to run when only help was asked for \throws usage_error
+/// \return nothing to run when only help was asked for \throws std::invalid_argument with one line
 request understand(int argc, char const* const* argv) {
     request r;
     CLI::App app("Poroelasticity of a bonded packing of discs with fluid in its pores, beside the closed forms.\n"
@@ -43,12 +38,9 @@ request understand(int argc, char const* const* argv) {
     app.add_flag("--quick", r.quick, "a coarse body and a short run");
     app.set_version_flag("--version", programs::version_text("poroelasticity"));
     if (!programs::parse(app, argc, argv)) return r;
-    if (r.name == "terzaghi") r.run = poroelasticity::run_terzaghi;
-    if (r.name == "mandel") r.run = poroelasticity::run_mandel;
-    if (r.name == "cryer") r.run = poroelasticity::run_cryer;
-    if (r.name == "darcy") r.run = poroelasticity::run_darcy;
-    if (!r.run)
-        throw usage_error("--case " + (r.name.empty() ? "''" : r.name) + ": must be terzaghi, mandel, cryer or darcy");
+    constexpr decltype(r.run) runs[] = {poroelasticity::run_terzaghi, poroelasticity::run_mandel, poroelasticity::run_cryer,
+                                        poroelasticity::run_darcy};
+    r.run = runs[programs::place_of("--case", r.name, {"terzaghi", "mandel", "cryer", "darcy"})];
     return r;
 }
 
@@ -63,20 +55,20 @@ int main(int argc, char** argv) {
         lacuna::run_directory directory(r.out, "--out", poroelasticity::result_names(r.name),
                                         r.force ? lacuna::earlier_results::replace : lacuna::earlier_results::refuse,
                                         "lacuna-" + r.name + ".lock");
-        auto const outcome = r.run(r.quick);
+        programs::terminal_progress progress;
+        auto const outcome = r.run(r.quick, progress);
+        progress.finish();
         poroelasticity::write_files(directory, outcome);
         if (r.json)
             std::fputs(poroelasticity::to_json(outcome).c_str(), stdout);
         else
             poroelasticity::print_rows(stdout, outcome);
+        programs::finish_output();
         if (!outcome.stopped) return done;
         std::fprintf(stderr, "poroelasticity: stopped by %s after step %lld; what there is is in %s\n",
                      lacuna::signal_name(lacuna::stop_signal()).c_str(), outcome.steps, directory.file(r.name + ".csv").c_str());
         return 128 + lacuna::stop_signal();
     } catch (std::invalid_argument const& bad) {
-        std::fprintf(stderr, "poroelasticity: %s\n", bad.what());
-        return bad_request;
-    } catch (usage_error const& bad) {
         std::fprintf(stderr, "poroelasticity: %s\n", bad.what());
         return bad_request;
     } catch (std::exception const& bad) {

@@ -48,11 +48,11 @@ int run(request const& asked) {
     }
     if (asked.check) {
         if (!asked.quiet) std::printf("%s: fine\n", asked.file.c_str());
+        programs::finish_output();
         return done;
     }
     lacuna::watch_stop_signals();
-    lacuna_run::results out(scenario, asked.force, start);
-    if (!asked.quiet && lacuna::is_terminal(stderr)) out.show_progress(stderr);
+    lacuna_run::results out(scenario, asked.force, asked.quiet, start);
     out.begin();
     try {
         if (!run->run(out)) return say_stopped(asked, out, *run);
@@ -66,16 +66,18 @@ int run(request const& asked) {
     out.finish(run->summary(scenario.simulation.steps ? "steps" : "end_time", ""), true);
     if (!asked.quiet)
         for (char const* name : {"probes.csv", "events.csv", "summary.json"}) std::printf("%s\n", out.file(name).c_str());
+    programs::finish_output();
     return done;
 }
 
 /// \return the exit status, where the command line alone decides it; else -1
 int parse(int argc, char** argv, request& asked) {
-    CLI::App app("Runs one TOML scenario of bonded particles and pore fluid and writes what it asks for.", "lacuna-run");
+    CLI::App app("Runs one TOML scenario of bonded particles and pore fluid and writes what it asks for.\n"
+                 "Exit status: 0 done, 1 a file could not be written, 2 refused, 3 run became unstable, 128 + number of a signal.", "lacuna-run");
     app.footer(lacuna_run::keys_help());
-    app.add_option("FILE", asked.file, "the scenario")->required();
+    app.add_option("FILE", asked.file, "the scenario")->required()->type_name("");
     app.add_flag("--check", asked.check, "only check the scenario");
-    app.add_option("--restart", asked.checkpoint, "go on from a checkpoint of the same scenario");
+    app.add_option("--restart", asked.checkpoint, "go on from a checkpoint of the same scenario")->type_name("FILE");
     app.add_flag("--force", asked.force, "replace the results that are in the output directory; other files in it stay");
     app.add_flag("--quiet", asked.quiet, "say nothing but errors");
     app.set_version_flag("--version", programs::version_text("lacuna-run"));
@@ -84,6 +86,9 @@ int parse(int argc, char** argv, request& asked) {
     } catch (std::invalid_argument const& bad) {
         std::fprintf(stderr, "lacuna-run: %s\n", bad.what());
         return refused;
+    } catch (std::runtime_error const& bad) {
+        std::fprintf(stderr, "lacuna-run: %s\n", bad.what());
+        return failed;
     }
 }
 

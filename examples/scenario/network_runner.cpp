@@ -80,13 +80,15 @@ public:
         // A run that was stopped before its first step has told its beginning.
         if (step_ == 0 && journal_.events.bytes == 0) tell(out);
         auto const& set = scenario_.simulation;
-        out.expect(step_, set.steps ? double(*set.steps - step_) : std::ceil((*set.end_time - time()) / time_step_), flow_->network().pores());
+        double const left = set.steps ? double(*set.steps - step_) : std::ceil((*set.end_time - time()) / time_step_);
+        out.progress().begin(left, flow_->network().pores(), step_);
         while (!is_over() && lacuna::stop_signal() == 0) {
             flow_->advance(Real(time_step_), scenario_.simulation.threads);
             ++step_;
             tell(out);
-            out.passed(step_);
+            out.progress().passed(step_);
         }
+        out.progress().finish();
 #ifdef LACUNA_RUN_CHECKPOINTS
         if (!is_over()) save(out, false);
 #endif

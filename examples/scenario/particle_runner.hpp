@@ -287,7 +287,7 @@ public:
     }
     lacuna::run_control on_step(simulation const& sim) {
         run_.tell_row(out_);
-        out_.passed(sim.steps());
+        out_.progress().passed(sim.steps());
         auto const& o = run_.scenario_.out;
         auto const due = [&](long long every) { return every > 0 && sim.steps() % every == 0; };
         if (due(o.vtk_every)) write_vtk(out_, run_.frame(), run_.scenario_, run_.journal_);
@@ -317,7 +317,7 @@ bool particle_runner<Model>::run(results& out) {
     auto const left = [&] {
         return set.steps ? double(*set.steps - sim_->steps()) : std::ceil((*set.end_time - sim_->time()) / sim_->time_step());
     };
-    out.expect(sim_->steps(), left(), sim_->size());
+    out.progress().begin(left(), sim_->size(), sim_->steps());
     while (!is_over() && lacuna::stop_signal() == 0) {
         try {
             sim_->run(std::max(1LL, (long long)(std::min(left(), 1e15))), watch);
@@ -328,6 +328,7 @@ bool particle_runner<Model>::run(results& out) {
             throw;
         }
     }
+    out.progress().finish();
 #ifdef LACUNA_RUN_CHECKPOINTS
     if (!is_over()) save(out, false);
 #endif

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -422,9 +424,12 @@ scenario read_scenario(std::string_view text, std::string const& name, std::stri
 
 scenario read_scenario_file(std::string const& path) {
     std::ifstream file(path, std::ios::binary);
+    int const reason = errno;
     std::error_code ignored;
-    if (!file || std::filesystem::is_directory(path, ignored)) throw refusal(path + ": cannot be read");
+    if (std::filesystem::is_directory(path, ignored)) throw refusal(path + ": cannot be read: it is a directory");
+    if (!file) throw refusal(path + ": cannot be read: " + std::strerror(reason));
     std::string const text{std::istreambuf_iterator<char>(file), {}};
+    if (text.find_first_not_of(" \t\r\n") == text.npos) throw refusal(path + ": is empty, it must be a scenario");
     std::string const folder = std::filesystem::path(path).parent_path().string();
     return read_scenario(text, path, folder.empty() ? "." : folder);
 }

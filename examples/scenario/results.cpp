@@ -75,7 +75,7 @@ resumption find_earlier_part(scenario const& s, std::string const& checkpoint, j
     throw refusal("--restart = \"" + checkpoint + "\": must be in its run's directory, or that be output.directory: " + missing);
 }
 
-results::results(scenario const& s, bool force, resumption const& start)
+results::results(scenario const& s, bool force, bool quiet, resumption const& start)
     : scenario_(s), start_(start),
       directory_(s.out.directory, "output.directory", known_names(),
                  !start.checkpoint.empty() && start.from == s.out.directory ? lacuna::earlier_results::keep
@@ -83,7 +83,7 @@ results::results(scenario const& s, bool force, resumption const& start)
                                                                             : lacuna::earlier_results::refuse),
       probes_(file("probes.csv"), heading_of(s)), events_(file("events.csv"), event_heading(s)),
       particles_(lacuna::vtk_collection(file("particles.pvd"))), bonds_(lacuna::vtk_collection(file("bonds.pvd"))),
-      pores_(lacuna::vtk_collection(file("pores.pvd"))) {}
+      pores_(lacuna::vtk_collection(file("pores.pvd"))), progress_(!quiet) {}
 
 void results::begin() {
     directory_.keep();

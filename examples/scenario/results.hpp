@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <algorithm>
-#include <cstdio>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include <lacuna/observe/progress.hpp>
 #include <lacuna/observe/run_directory.hpp>
 
+#include "../terminal_progress.hpp"
 #include "journal.hpp"
 
 namespace lacuna_run {
@@ -31,8 +28,9 @@ resumption find_earlier_part(scenario const& s, std::string const& checkpoint, j
 /// at all.
 class results {
 public:
-    /// Takes the directory. \throws std::invalid_argument as lacuna::run_directory: nothing is written then
-    results(scenario const& s, bool force, resumption const& start);
+    /// Takes the directory. \param quiet shows no progress
+    /// \throws std::invalid_argument as lacuna::run_directory: nothing is written then
+    results(scenario const& s, bool force, bool quiet, resumption const& start);
 
     /// Begins the logs, or brings all files to what they were at the checkpoint. \throws std::runtime_error, as all below
     void begin();
@@ -50,21 +48,8 @@ public:
     /// Writes summary.json, last: its presence says that all is there.
     /// \param ended whether the run is at its end, and not to be resumed
     void finish(std::string const& summary, bool ended);
-    /// Shows on a terminal how far the run is. \param sink nullptr: nothing is shown
-    void show_progress(std::FILE* sink) noexcept { sink_ = sink; }
-    /// The run goes from step `from` on, for about so many steps.
-    void expect(long long from, double steps, std::size_t particles) {
-        lacuna::progress_options how;
-        how.sink = sink_;
-        how.steps = std::max(1LL, (long long)(std::min(steps, 1e15)));
-        how.particles = std::max(1LL, (long long)(particles));
-        how.terminal = true;
-        from_ = from;
-        progress_.emplace(how);
-    }
-    void passed(long long step) {
-        if (sink_ != nullptr && progress_) progress_->update(step - from_);
-    }
+    /// How far the run is, for a person.
+    programs::terminal_progress& progress() noexcept { return progress_; }
     /// Removes what was written, of a run that is refused after all.
     void discard() { directory_.discard(); }
 
@@ -77,9 +62,7 @@ private:
     resumption start_;
     lacuna::run_directory directory_;
     lacuna::growing_file probes_, events_, particles_, bonds_, pores_;
-    std::FILE* sink_ = nullptr;
-    std::optional<lacuna::progress_reporter<>> progress_;
-    long long from_ = 0;
+    programs::terminal_progress progress_;
     bool stopped_between_ = false; // checkpoint.bin is of a stop, not of output.checkpoint_every
 };
 

@@ -1,16 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <exception>
-#include <map>
+#include <iterator>
+#include <limits>
 #include <stdexcept>
 #include <string>
 
 #include <CLI/CLI.hpp>
 
+#include <lacuna/core/text.hpp>
 #include <lacuna/observe/run_directory.hpp>
 #include <lacuna/observe/stop_signal.hpp>
 
 #include "../command_line.hpp"
+#include "../terminal_progress.hpp"
 #include "output.hpp"
 #include "uniaxial.hpp"
 
@@ -24,30 +29,51 @@ struct wish {
     bool json = false, force = false, help = false;
 };
 
+/// A number of the request: its option, and what it is.
+struct number {
+    char const* option;
+    double uniaxial::request::*member;
+    char const* meaning;
+};
+using request = uniaxial::request;
+constexpr number numbers[] = {
+    {"--width", &request::width, "of the specimen, m"},
+    {"--height", &request::height, "of the specimen, m"},
+    {"--radius", &request::radius, "mean radius of the discs, m"},
+    {"--thickness", &request::thickness, "of the specimen, m"},
+    {"--bond-modulus", &request::bond_modulus, "k_n over the thickness, Pa"},
+    {"--shear-ratio", &request::shear_ratio, "k_s over k_n"},
+    {"--tensile-strength", &request::tensile_strength, "of bonds, Pa"},
+    {"--cohesion", &request::cohesion, "of bonds, Pa"},
+    {"--internal-friction", &request::internal_friction, "of bonds, tan phi"},
+    {"--friction", &request::friction, "of contacts and platens"},
+    {"--weibull-modulus", &request::weibull_modulus, "of the strengths' scatter; inf: none"},
+    {"--strain", &request::strain, "at which the run ends at the latest"},
+};
+
+double read_number(std::string const& option, std::string const& word) {
+    // Infinity is a number here: the request knows where it may stand.
+    auto const value = lacuna::number_of(word);
+    return value && std::isinf(*value) && word.find_first_of("0123456789") == word.npos ? *value : lacuna::read_number(option, word);
+}
+
 /// \throws std::invalid_argument with one line for a request that cannot be met
 wish understand(int argc, char const* const* argv) {
     wish w;
     auto& q = w.request;
+    std::string words[std::size(numbers)], seed, steps;
     CLI::App app("Uniaxial compression of a bonded specimen between two platens.\n"
                  "Writes uniaxial.csv, uniaxial.json, uniaxial.png, uniaxial.svg. SI units.\n"
-                 "Exit status: 0 done, 1 failed, 2 bad request, 128 + number of a signal that stopped it.",
+                 "Exit status: 0 done, 1 a file could not be written, 2 bad request, 128 + number of a signal that stopped it.",
                  "uniaxial");
     app.failure_message(CLI::FailureMessage::simple);
+    app.get_formatter()->column_width(28);
     app.add_option("--specimen", w.specimen, "random or lattice (random)")->type_name("KIND");
-    app.add_option("--width", q.width, "of the specimen, m")->capture_default_str();
-    app.add_option("--height", q.height, "of the specimen, m")->capture_default_str();
-    app.add_option("--radius", q.radius, "mean radius of the discs, m")->capture_default_str();
-    app.add_option("--thickness", q.thickness, "of the specimen, m")->capture_default_str();
-    app.add_option("--seed", q.seed, "of packing and strengths")->capture_default_str();
-    app.add_option("--bond-modulus", q.bond_modulus, "k_n over the thickness, Pa")->capture_default_str();
-    app.add_option("--shear-ratio", q.shear_ratio, "k_s over k_n")->capture_default_str();
-    app.add_option("--tensile-strength", q.tensile_strength, "of bonds, Pa")->capture_default_str();
-    app.add_option("--cohesion", q.cohesion, "of bonds, Pa")->capture_default_str();
-    app.add_option("--internal-friction", q.internal_friction, "of bonds, tan phi")->capture_default_str();
-    app.add_option("--friction", q.friction, "of contacts and platens")->capture_default_str();
-    app.add_option("--weibull-modulus", q.weibull_modulus, "of the strengths' scatter; inf: none")->capture_default_str();
-    app.add_option("--strain", q.strain, "at which the run ends at the latest")->capture_default_str();
-    app.add_option("--steps", q.steps, "to get there")->capture_default_str();
+    for (std::size_t k = 0; k < std::size(numbers); ++k)
+        app.add_option(numbers[k].option, words[k], std::string(numbers[k].meaning) + " (" + lacuna::to_text(q.*numbers[k].member) + ")")
+            ->type_name("NUMBER");
+    app.add_option("--seed", seed, "of packing and strengths, a whole number (" + std::to_string(q.seed) + ")")->type_name("N");
+    app.add_option("--steps", steps, "to get to the strain, a whole number (" + std::to_string(q.steps) + ")")->type_name("N");
     app.add_option("--out", w.out, "directory for the files (.)")->type_name("DIR");
     app.add_flag("--elastic", q.elastic, "bonds that never break: moduli alone");
     app.add_flag("--force", w.force, "replace the results that are in DIR");
@@ -57,11 +83,12 @@ wish understand(int argc, char const* const* argv) {
         w.help = true;
         return w;
     }
-    std::map<std::string, uniaxial::specimen_kind> const kinds{{"random", uniaxial::specimen_kind::random},
-                                                               {"lattice", uniaxial::specimen_kind::lattice}};
-    auto const kind = kinds.find(w.specimen);
-    if (kind == kinds.end()) throw std::invalid_argument("--specimen " + w.specimen + ": must be random or lattice");
-    q.specimen = kind->second;
+    constexpr uniaxial::specimen_kind kinds[] = {uniaxial::specimen_kind::random, uniaxial::specimen_kind::lattice};
+    q.specimen = kinds[programs::place_of("--specimen", w.specimen, {"random", "lattice"})];
+    for (std::size_t k = 0; k < std::size(numbers); ++k)
+        if (app.count(numbers[k].option) > 0) q.*numbers[k].member = read_number(numbers[k].option, words[k]);
+    if (app.count("--seed") > 0) q.seed = std::uint64_t(lacuna::read_whole("--seed", seed, 0, std::numeric_limits<long long>::max()));
+    if (app.count("--steps") > 0) q.steps = lacuna::read_whole("--steps", steps, 1000, 100000000);
     q.validate();
     return w;
 }
@@ -79,7 +106,8 @@ int main(int argc, char** argv) {
         directory.keep();
         auto const outcome = [&] {
             try {
-                return uniaxial::run(w.request, &rows);
+                programs::terminal_progress progress;
+                return uniaxial::run(w.request, &rows, &progress);
             } catch (std::invalid_argument const&) {
                 directory.discard();
                 throw;
@@ -90,6 +118,7 @@ int main(int argc, char** argv) {
             std::fputs(uniaxial::to_json(outcome).c_str(), stdout);
         else
             uniaxial::print(stdout, outcome);
+        programs::finish_output();
         if (outcome.ended.rfind("stopped", 0) != 0) return done;
         std::fprintf(stderr, "uniaxial: %s after step %lld; what there is is in %s\n", outcome.ended.c_str(), outcome.steps,
                      directory.file("uniaxial.csv").c_str());

@@ -173,7 +173,7 @@ std::string row_of(sample const& s) {
            lacuna::to_text(s.lateral_strain) + "," + std::to_string(s.tension_cracks) + "," + std::to_string(s.shear_cracks) + "\n";
 }
 
-outcome run(request const& asked, lacuna::growing_file* rows) {
+outcome run(request const& asked, lacuna::growing_file* rows, programs::terminal_progress* progress) {
     asked.validate();
     auto const specimen = make_specimen(asked);
     simulation sim(specimen, settings(asked, specimen));
@@ -198,11 +198,14 @@ outcome run(request const& asked, lacuna::growing_file* rows) {
     };
     if (rows) rows->begin();
     tell();
+    programs::terminal_progress nobody(false);
+    auto& shown = progress ? *progress : nobody;
+    shown.begin(double(asked.steps), sim.size());
     std::size_t counted = 0;
     double highest = 0;
     long long const interval = std::max(1LL, asked.steps / rows_of_a_run);
     while (sim.steps() < asked.steps) {
-        sim.run(std::min(interval, asked.steps - sim.steps()), cracks, lacuna::stop_on_signal{});
+        sim.run(std::min(interval, asked.steps - sim.steps()), cracks, shown, lacuna::stop_on_signal{});
         auto const state = test.state(sim);
         auto const middle = strains_of_the_middle(sim, specimen);
         for (; counted < cracks.events().size(); ++counted)
@@ -222,6 +225,7 @@ outcome run(request const& asked, lacuna::growing_file* rows) {
             break;
         }
     }
+    shown.finish();
     if (rows) rows->flush();
     o.steps = sim.steps();
     find_moduli(o);

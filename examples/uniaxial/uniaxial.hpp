@@ -10,6 +10,8 @@
 #include <lacuna/observe/growing_file.hpp>
 #include <lacuna/draw/picture_scene.hpp>
 
+#include "../terminal_progress.hpp"
+
 /// \file
 /// Uniaxial compression of a bonded specimen between two platens, as data: what is asked for, and what comes out.
 
@@ -80,8 +82,9 @@ std::string row_heading();
 std::string row_of(sample const& s);
 
 /// \param rows file that is begun and grows by the curve's rows as they come; null: none
+/// \param progress is told how far the run is; null: nobody
 /// \throws std::invalid_argument for a bad request, std::runtime_error for a run that failed
-outcome run(request const& asked, lacuna::growing_file* rows = nullptr);
+outcome run(request const& asked, lacuna::growing_file* rows = nullptr, programs::terminal_progress* progress = nullptr);
 
 /// Young's modulus that the outline of a strip of `chains` straight chains of touching discs shows under a load along
 /// them, and Poisson's ratio, by the moduli of the triangular lattice: the strip deforms as the lattice does, and lacks

@@ -108,7 +108,7 @@ outcome play(scenario const& s, look how, std::string const& checkpoint = "") {
     auto const* watched = dynamic_cast<fuzz::watched const*>(run.get());
     long long const left = *s.simulation.steps - run->steps();
     if (watched && how == look::at_each_step && left > 0) done.seen = watched->rehearse(left);
-    lacuna_run::results out(s, checkpoint.empty(), start);
+    lacuna_run::results out(s, checkpoint.empty(), true, start);
     out.begin();
     try {
         fuzz::expect(run->run(out), "a run that no signal stops comes to its end");

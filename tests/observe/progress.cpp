@@ -67,6 +67,20 @@ TEST_CASE("plain lines come now and then, with percent, rate and time left") {
     CHECK(out.text() == " 25 %  10 k particle-steps/s  left 30 s  broken 3\n");
 }
 
+TEST_CASE("a run whose end shows as it goes on") {
+    scratch_file out;
+    lacuna::progress_options options;
+    options.sink = out.file;
+    options.steps = 1000;
+    options.line_seconds = 5;
+    lacuna::progress_reporter<hand_clock> progress(options);
+    hand_clock::advance(10);
+    progress.expect(200);
+    progress.update(50);
+    CHECK(out.text() == " 25 %  5 particle-steps/s  left 30 s\n");
+    CHECK_THROWS_WITH(progress.expect(0), contains_text("steps of the whole run = 0"));
+}
+
 TEST_CASE("the closing line always comes, once") {
     scratch_file out;
     lacuna::progress_options options;

@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <cstdlib>
+#include <filesystem>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <lacuna/core/version.hpp>
 
@@ -22,4 +26,41 @@ TEST_CASE("the command line: version, help, the option that was meant", "[progra
     CHECK_THAT(misspelt.err, contains_text("--forse") && contains_text("(did you mean --force?)"));
     CHECK(misspelt.out.empty());
     CHECK(here.files().empty());
+}
+
+TEST_CASE("files that are no scenario are refused in one line", "[program]") {
+    folder const here("no_scenario");
+    std::filesystem::create_directories(here / "directory");
+    here.write("empty.toml", "");
+    here.write("blank.toml", " \n\t\n");
+    here.write("zeros.toml", std::string(300, '\0'));
+    for (auto const& [name, text] : std::vector<std::pair<std::string, std::string>>{
+             {"nowhere.toml", "nowhere.toml: cannot be read: No such file or directory"},
+             {"directory", "directory: cannot be read: it is a directory"},
+             {"empty.toml", "empty.toml: is empty, it must be a scenario"},
+             {"blank.toml", "blank.toml: is empty, it must be a scenario"},
+             {"zeros.toml", "zeros.toml:1: a NUL byte: must be text"}}) {
+        auto const before = here.files();
+        auto const ran = here.run(name);
+        INFO(ran.err);
+        CHECK(ran.status == 2);
+        CHECK(ran.out.empty());
+        CHECK(ran.err == text + "\n");
+        CHECK(here.files() == before);
+    }
+}
+
+TEST_CASE("what cannot be said on stdout is an error", "[program]") {
+    if (!std::filesystem::exists("/dev/full")) return;
+    folder const here("full_stdout");
+    std::string const command = "cd '" + (here / "").string() + "' && '" LACUNA_RUN_PROGRAM "' ";
+    auto const status_of = [&](std::string const& rest) {
+        int const status = std::system((command + rest).c_str());
+        return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    };
+    CHECK(status_of("--help >/dev/full 2>err") == 1);
+    CHECK_THAT(program::read_file(here / "err"), contains_text("lacuna-run: cannot write to the standard output"));
+    CHECK(status_of("'" LACUNA_RUN_CASES "/beam.toml' >/dev/full 2>err") == 1);
+    CHECK_THAT(program::read_file(here / "err"), contains_text("lacuna-run: cannot write to the standard output"));
+    CHECK(std::filesystem::exists(here / "out/summary.json"));
 }

@@ -88,6 +88,12 @@ public:
     /// Leaves the terminal on a fresh line.
     ~progress_reporter() { end_line(); }
 
+    /// From here on the whole run is that long: for runs whose end shows as they go on. \throws std::invalid_argument for
+    /// less than 1
+    void expect(long long steps) {
+        if (steps < 1) refuse("steps of the whole run", double(steps), ">= 1");
+        options_.steps = steps;
+    }
     /// Says that `step` steps are done; `note` stands at the end of the line. Cheap when it is not yet time to speak.
     void update(long long step, std::string_view note = {}) {
         if (options_.sink == nullptr) return;
