@@ -258,6 +258,9 @@ TEST_CASE("overlaps are named, with a bond that gives way", "[guards]") {
     SECTION("not where it is switched off, or where the limit is further away") {
         p.guards.overlap = false;
         REQUIRE(squeeze(p).find("overlap") == std::string::npos);
+        auto soon = p;
+        soon.guards.motion_limit = 0.005; // while the bond gives way
+        REQUIRE_THAT(squeeze(soon), contains_text("bond 0 between particles 0 and 1 is crushed"));
         p.guards.overlap = true;
         p.guards.overlap_limit = 1.5;
         REQUIRE_THAT(squeeze(p), contains_text("more than 1.5 of a radius") && contains_text("bond 0"));

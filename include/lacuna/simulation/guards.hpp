@@ -148,7 +148,7 @@ std::string crushed_bond([[maybe_unused]] particle_store<Real, Dim> const& store
             Real const limit = Law::template compressive_limit<Dim>(row, store.radius(i), store.radius(j));
             Real const distance = norm(store.nearest(store.position(j) - store.position(i)));
             if (Law::stiffness(row) * (distance - bonds.get(s).state.rest_distance) > Real(-0.999) * limit) continue;
-            auto const ids = std::minmax(store.id(i), store.id(j));
+            auto const ids = std::minmax({store.id(i), store.id(j)}); // by value
             return "bond " + std::to_string(bonds.label(s)) + " between particles " + std::to_string(ids.first) + " and " +
                    std::to_string(ids.second) + " is crushed: at its limit, " + to_text(double(limit)) +
                    " N in compression, it gives way without end";
