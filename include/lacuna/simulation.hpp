@@ -219,7 +219,10 @@ public:
     /// Advances by one step.
     /// \throws unstable_run when the state is no longer meaningful; std::invalid_argument when the time step is
     ///         above the bound
-    void step() { take_step<false>(); }
+    void step() {
+        settle_anew();
+        take_step<false>();
+    }
 
     /// Advances by `steps` steps, or until an observer's on_step asks to stop. A run that was stopped, or resumed from a
     /// checkpoint, and goes on to the same last step counts as the same run: it has the same bits.
@@ -230,7 +233,7 @@ public:
         (detail::check_observer<simulation, event_type, Observers>(), ...);
         constexpr bool always = (detail::needs_energy<Observers> || ...);
         constexpr bool sometimes = !always && (detail::samples_energy<Observers> || ...);
-        if (step_ == 0) time_step_.reset();
+        settle_anew();
         settle_time_step();
         (detail::notify_start(observers, *this), ...);
         long long taken = 0;
@@ -257,7 +260,10 @@ public:
     /// Kept while an observer asks for it (see observe/observer.hpp), or step_with_energy() is used.
     energy_ledger const& energy() const noexcept { return ledger_.ledger(); }
     /// As step(), and keeps the energy ledger.
-    void step_with_energy() { take_step<true>(); }
+    void step_with_energy() {
+        settle_anew();
+        take_step<true>();
+    }
 
     /// Limits of the time step in the present state (MODEL.md section 6), by what the control of the step counts: bonds,
     /// contacts of particles and walls that touch or may before the next look, and the fluid; with laws that stiffen
@@ -697,6 +703,10 @@ private:
                       real(parameters_.interactions.initial_contact_tolerance));
     }
 
+    /// What was set since the time step was first asked for counts: whether the first step is one of run() or of step().
+    void settle_anew() noexcept {
+        if (step_ == 0) time_step_.reset();
+    }
     /// Fixes the time step on first use: the one asked for, if it is stable, or a share of the critical one.
     void settle_time_step() const {
         if (time_step_) return;

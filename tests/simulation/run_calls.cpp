@@ -133,3 +133,24 @@ TEMPLATE_TEST_CASE("a wet body has the same bits however its run is cut into cal
     REQUIRE(idle_throats(all) == 0);
     REQUIRE(state_hash(all) == state_hash(fresh));
 }
+
+TEST_CASE("what is set after the time step was asked for counts in the first step, of run() and of step()", "[same bits]") {
+    auto const pair = [] {
+        packing<double, 2> discs;
+        discs.add({0.0, 0.0}, 0.5);
+        discs.add({2.0, 0.0}, 0.5);
+        simulation<default_model<2>> sim(discs, {});
+        double const slow = sim.time_step();
+        // So fast that a tenth of the radius is more than a step of the stiffness: m/s.
+        sim.set_velocity(0, {1.0 / slow, 0.0});
+        return sim;
+    };
+    auto by_run = pair(), by_step = pair(), by_energy = pair();
+    by_run.run(1);
+    by_step.step();
+    by_energy.step_with_energy();
+    REQUIRE(by_run.time_step() <= 0.05 * 0.5 / norm(by_run.velocity(0)) * (1 + 1e-12));
+    REQUIRE(by_step.time_step() == by_run.time_step());
+    REQUIRE(by_energy.time_step() == by_run.time_step());
+    REQUIRE(by_step.position(0)[0] == by_run.position(0)[0]);
+}

@@ -159,9 +159,10 @@ constexpr bool explain_flow() {
 }
 template <class Policy, int Dim>
 constexpr bool explain_integrator() {
-    static_assert(integrator<Policy, Dim>, "the integrator needs: static void advance<WithEnergy, Damping>(particle_store<Real, "
-                                           "Dim>&, std::size_t first, int count, Real dt, PairForce const&, Damping::parameters "
-                                           "const&, record_column<Real> const* extra, motion_report<Real>&)");
+    constexpr bool fits = integrator<Policy, Dim>;
+    static_assert(fits, "the integrator needs: static void advance<WithEnergy, Damping>(particle_store<Real, Dim>&, std::size_t "
+                        "first, int count, Real dt, PairForce const&, Damping::parameters const&, record_column<Real> const* "
+                        "extra, motion_report<Real>&)");
     return true;
 }
 template <class Policy, int Dim>
@@ -207,7 +208,8 @@ concept has_all_slots = requires {
 
 template <class M>
 constexpr bool explain_slots() {
-    static_assert(has_all_slots<M>, "a model starts from default_model: struct my_model : lacuna::default_model<2> { ... };");
+    constexpr bool complete = has_all_slots<M>;
+    static_assert(complete, "a model starts from default_model: struct my_model : lacuna::default_model<2> { ... };");
     if constexpr (has_all_slots<M>) {
         static_assert(plane_or_space<M::dim>, "a model's dim must be 2 or 3");
         static_assert(std::floating_point<typename M::real>, "a model's real must be float or double");
