@@ -606,9 +606,9 @@ private:
         limit_scratch<dim> scratch;
         return find_limits<Model>(store_, interactions_, walls_, fluid_.get(), parameters_.damping, assumed, scratch);
     }
-    contact_assumption next_assumption(bool wide = false) const {
-        return control_.next_assumption(store_, interactions_, walls_, chooses_step(), wide, double(guards_.smallest_radius()),
-                                        filled());
+    contact_assumption next_assumption(bool wide = false, double reach = 0) const {
+        return control_.next_assumption(store_, interactions_, walls_, chooses_step(), wide, reach,
+                                        double(guards_.smallest_radius()), filled());
     }
     /// What contacts may become, for control_.
     void look_ahead(double speed, double overlap) const {
@@ -647,17 +647,25 @@ private:
         auto const look = [&](contact_assumption const& at) {
             return find_limits<Model>(store_, interactions_, walls_, fluid_.get(), parameters_.damping, at, scratch_);
         };
-        auto assumed = next_assumption(control_.cannot_wait());
+        double const speed = std::max(double(moved_) / clock_.last, walls_.fastest());
+        auto assumed = next_assumption(control_.cannot_wait(), chooses_step() ? 2 * speed * *time_step_ : 0);
         auto found = look(assumed);
         if (!chooses_step() && control_.cannot_wait() && !(*time_step_ <= found.rigorous)) {
             // What is near may pass: only what is about to touch ends a run.
             assumed = next_assumption();
             found = look(assumed);
         }
+        look_ahead(speed, assumed.overlap);
+        if (chooses_step())
+            if (double const longer = chosen_step(found.rigorous); longer > 1.05 * *time_step_ && 2 * speed * longer > assumed.gap) {
+                // In a longer step bodies come together from further away.
+                assumed = next_assumption(true, 2 * speed * longer);
+                found = look(assumed);
+            }
         double const critical = found.rigorous; // that of the fluid alone: mind_flow_limit()
-        look_ahead(std::max(double(moved_) / clock_.last, walls_.fastest()), assumed.overlap);
         if (chooses_step()) {
-            double const wanted = chosen_step(critical), now = *time_step_, most = parameters_.safety * found.flow;
+            double const now = *time_step_, most = parameters_.safety * found.flow;
+            double const wanted = speed > 0 ? std::min(chosen_step(critical), std::max(now, assumed.gap / (2 * speed))) : chosen_step(critical);
             // A step that could be a little longer is not worth a change.
             bool const shrinks = parameters_.follow_critical_step ? wanted < 0.99 * now || now > critical : now > critical;
             bool const grows = parameters_.follow_critical_step && std::min(wanted, most) > 1.05 * now;
@@ -713,12 +721,16 @@ private:
         if constexpr (has_fluid<Model>)
             if (!filled()) throw std::logic_error("simulation: the model has a fluid but fill_pores() was not called");
         control_.reset(filled());
-        auto const assumed = next_assumption();
-        time_step_limits const found = find_limits_of(assumed);
+        auto assumed = next_assumption();
+        time_step_limits found = find_limits_of(assumed);
         bool const given = parameters_.time_step > 0;
         double speed = walls_.fastest_next();
         for (std::size_t k = 0; k < store_.size(); ++k) speed = std::max(speed, double(norm(store_.velocity(k))));
         look_ahead(speed, assumed.overlap);
+        if (double const reach = given ? 0 : 2 * speed * chosen_step(found.critical()); reach > assumed.gap && std::isfinite(reach)) {
+            assumed = next_assumption(false, reach); // what may touch within the first step
+            found = find_limits_of(assumed);
+        }
         double const critical = found.critical();
         if (given && !parameters_.allow_unstable_step && !(parameters_.time_step <= critical))
             refuse("time_step", parameters_.time_step,

@@ -235,6 +235,28 @@ TEST_CASE("a light, stiff particle that flies into a soft, heavy bed is followed
     CHECK_THAT(sim.velocity(21)[0], WithinAbs(0, 0.06));
 }
 
+TEST_CASE("a step that is chosen, or grows, is made for what may touch within it", "[step]") {
+    // Soft discs at rest give a long step; a stiff, light one flies at another, which is closer than it goes in that step.
+    for (double const gap : {0.004, 0.006, 0.012, 0.02, 0.045, 0.11, 0.3}) {
+        CAPTURE(gap);
+        lacuna::simulation_parameters<plane> p;
+        p.materials = {{2000, {1e4, 0, 0}, {}}, {2, {1e9, 0, 0}, {}}};
+        lacuna::packing<double, 2> bed;
+        for (int k = 0; k < 20; ++k) bed.add({1.0 * (k % 5), 1.0 * (k / 5)}, 0.5, 0);
+        bed.add({6.0, 3.0}, 0.5, 1);
+        bed.add({7.0 + gap, 3.0}, 0.5, 1);
+        bed.add({12.0, 3.0}, 0.5, 1);
+        bed.add({13.0 + 3 * gap, 3.0}, 0.5, 1);
+        lacuna::simulation<plane> sim(bed, p);
+        sim.set_velocity(21, {-3.0, 0});
+        sim.set_velocity(23, {-3.0, 0});
+        REQUIRE(run_until<lacuna::simulation<plane>>(sim, 1000000, [&](auto const& s) { return s.velocity(22)[0] < -2.9; }));
+        sim.run(10);
+        CHECK_THAT(sim.velocity(20)[0], WithinRel(-3.0, 0.02));
+        CHECK_THAT(sim.velocity(22)[0], WithinRel(-3.0, 0.02));
+    }
+}
+
 TEST_CASE("a given step that contacts make unsafe stops the run with both numbers", "[step][refusal]") {
     for (bool const allowed : {false, true}) {
         auto p = springs<plane>(1e6, 0, 0, 4 / pi);
@@ -292,8 +314,8 @@ TEST_CASE("the step follows contacts, and a look is rare in a lively run", "[ste
     sim.run(2000);
     auto const before = sim.looks();
     sim.run(4000);
-    CHECK(sim.looks() - before >= 5);
-    CHECK(sim.looks() - before <= 12);
+    CHECK(sim.looks() - before >= 2);
+    CHECK(sim.looks() - before <= 6);
     CHECK(sim.time_step() < 0.5 * sim.limits().critical());
 }
 
@@ -365,7 +387,7 @@ TEST_CASE("a run that is resumed in mid-flight looks at its step as the whole on
     for (int const first : {37, 150, 700}) {
         auto whole = make();
         whole.run(2000);
-        REQUIRE(whole.looks() > 3);
+        REQUIRE(whole.looks() >= 3);
         auto part = make();
         part.run(2000, stop_at{first});
         std::string const path = "step_control.bin";

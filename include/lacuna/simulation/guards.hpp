@@ -128,7 +128,10 @@ template <class Real, int Dim, class Table>
 std::int64_t find_deep_bond(particle_store<Real, Dim> const& store, Table const& bonds, double limit,
                             std::span<std::int32_t const> deep_at_start) noexcept {
     for (std::size_t s = 0; s < bonds.slots(); ++s) {
-        if (bonds.is_filler(s, store.size()) || !(double(overlap_of(store, bonds.i(s), bonds.j(s))) > limit)) continue;
+        if (bonds.is_filler(s, store.size())) continue;
+        auto const i = std::size_t(bonds.i(s)), j = std::size_t(bonds.j(s));
+        Real const far = store.radius(i) + store.radius(j) - Real(limit) * std::min(store.radius(i), store.radius(j));
+        if (!(far > 0 && squared_norm(store.nearest(store.position(j) - store.position(i))) < far * far)) continue;
         if (!std::binary_search(deep_at_start.begin(), deep_at_start.end(), bonds.label(s))) return std::int64_t(s);
     }
     return -1;

@@ -41,14 +41,15 @@ public:
     /// What to assume next.
     /// \param chosen the step is one of our choice, not one to be judged
     /// \param wide a gap that lasts as long as a look should
+    /// \param reach by how much two bodies may approach in a step that is thought of, m
     /// \param smallest_radius m
     /// \param wet there is fluid, which makes a look dear
     template <class Store, class Interactions, class Walls>
     contact_assumption next_assumption(Store const& store, Interactions const& pairs, Walls const& walls, bool chosen,
-                                       bool wide, double smallest_radius, bool wet) const {
-        contact_assumption next{least_gap * smallest_radius, 0};
+                                       bool wide, double reach, double smallest_radius, bool wet) const {
+        contact_assumption next{std::clamp(reach, least_gap * smallest_radius, most_gap * smallest_radius), 0};
         if (wide)
-            next.gap = std::clamp(last_approach_ * double(price(wet)), next.gap, most_gap * smallest_radius);
+            next.gap = std::clamp(last_approach_ * double(lasting(wet)), next.gap, most_gap * smallest_radius);
         double listed = pairs.remaining();
         if (!walls.empty()) listed = std::min(listed, walls.remaining());
         next.gap = std::max(0.0, std::min(next.gap, listed));
@@ -93,7 +94,7 @@ public:
         due_ = false;
         credit_ = std::max(0LL, credit_ - price(wet));
         can_wait_ = time_step <= 0.9 * forecast_.crowded(rigorous);
-        price_ = !can_wait_ ? 0 : time_step <= accurate ? price(wet) : price(wet) / 4;
+        price_ = !can_wait_ ? 0 : !chosen ? 4 * price(wet) : time_step <= accurate ? price(wet) : price(wet) / 4;
     }
     /// After a step.
     /// \param path upper bound of the path of every particle and wall in it, m
@@ -105,7 +106,7 @@ public:
         deepest_ = std::max(deepest_, deepest);
         // Before the next step may be one too many.
         due_ = due_ || failed || !(approach_ + last_approach_ <= assumed_.gap) || (grows && deepest_ > assumed_.overlap);
-        credit_ = std::min(credit_ + 1, 2 * price_of_wet_look);
+        credit_ = std::min(credit_ + 1, 4 * price_of_wet_look);
     }
     /// Whether to look before the next step.
     bool looks_now() const noexcept { return due_ && (credit_ >= price_ || (grows && deepest_ > forecast_.overlap())); }
@@ -126,9 +127,12 @@ public:
 private:
     static constexpr double least_gap = 0.01, most_gap = 0.1; ///< over the smallest radius
     static constexpr double deeper = 1.25;
-    /// In steps: what lies between two looks that can wait.
-    static constexpr long long price_of_dry_look = 400, price_of_wet_look = 1600;
+    /// In steps: what lies between two looks that can wait, where the step is chosen; four times that where it is given. A
+    /// look at a bonded sheet takes as long as 22 steps.
+    static constexpr long long price_of_dry_look = 1000, price_of_wet_look = 1600;
     static constexpr long long price(bool wet) noexcept { return wet ? price_of_wet_look : price_of_dry_look; }
+    /// For how many steps a wide gap should do.
+    static constexpr long long lasting(bool wet) noexcept { return wet ? 1600 : 400; }
 
     contact_forecast<Model> forecast_;
     contact_assumption assumed_{};
