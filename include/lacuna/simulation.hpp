@@ -738,7 +738,9 @@ private:
                        (found.rigorous <= found.flow ? "the particles, with rotation and fluid stiffness"
                                                      : "the flow between pores") +
                        "; eq. 9 gives " + to_text(found.wave_limit) + " s), or allow_unstable_step");
-        double const step = given ? parameters_.time_step : chosen_step(critical);
+        // Where all particles are held no step is too long, and eq. 9 gives one that is of use.
+        bool const free = std::isfinite(critical) || std::isfinite(control_.forecast().first_contact());
+        double const step = given ? parameters_.time_step : chosen_step(free ? critical : found.wave_limit);
         if (std::isinf(step))
             refuse("time_step", 0.0, "given: without any stiffness there is no critical time step");
         if (!is_step(step))

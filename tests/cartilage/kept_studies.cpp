@@ -73,7 +73,7 @@ TEST_CASE("lists of a kept study that do not fit each other, numbers out of rang
         {"/snapshots/0/fronts/0/pore_pressure", json::array(), "snapshots[0].fronts[1].pore_pressure = (a list or an object): must be empty"},
         {"/snapshots/0/fronts/1/time", 0.0, "snapshots[0].fronts[1].time = 0.0: must be not before"},
         {"/snapshots/0/fronts/1/broken", -1, "snapshots[0].fronts[1].broken = -1: must be a whole number from 0"},
-        {"/snapshots/0/damage/particles/3", 3, "snapshots[0].damage.particles[3] = 3: must be a whole number from 0 to 2"},
+        {"/snapshots/0/damage/particles/3", 3, "snapshots[0].damage.particles[3] = 3: must be a whole number from 0 to 1"},
         {"/snapshots/0/damage/cracks/9", -1, "snapshots[0].damage.cracks[9] = -1: must be a whole number from 0 to 1"},
         {"/snapshots/0/damage/frame", {0, 0, 0, 0}, "snapshots[0].damage.frame"},
         {"/packings/0/probes/3/cracks/0/4", 1e300, "packings[0].probes[3].cracks[0][4] = 1e+300: must be a whole number"},

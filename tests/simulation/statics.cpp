@@ -131,10 +131,10 @@ TEST_CASE("moduli of the triangular lattice", "[statics][reference]") {
         for (std::string const kind : {"stretch", "shear"}) {
             auto p = damped(std::stod(ratio));
             lacuna::simulation<plane_locally_damped> run(packing, p);
-            double const duration = 10 * run.time_step();
+            for (std::size_t k = 0; k < run.size(); ++k) run.fix(k);
+            double const duration = 10 * run.time_step(); // where all are held no step is too long: a share of eq. 9's
             for (std::size_t k = 0; k < run.size(); ++k) {
                 auto const& x = packing.position[k];
-                run.fix(k);
                 if (kind == "stretch")
                     run.set_velocity(k, {strain * x[0] / duration, 0});
                 else

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <lacuna/core/standard.hpp>
+
 /// \file
 /// Names that a person may give to a member of a model and mean a slot: the language cannot say which members a model has,
 /// so that a misspelt slot would leave the default in place. These are refused: a letter left out, doubled or exchanged with
