@@ -204,7 +204,9 @@ void check_owner(subject const& s, path const& folder, files const& whole) {
     if (process::fs::exists(folder / "deck.toml")) process::fs::copy_file(folder / "deck.toml", elsewhere / "deck.toml");
     process::fs::create_directory_symlink(folder / "out", elsewhere / "out");
     process::running first(s.begin, folder);
-    while (!process::fs::exists(folder / "out" / "lacuna.lock")) usleep(1000);
+    // Until the first one has written who it is.
+    path const lock = folder / "out" / "lacuna.lock";
+    for (std::error_code none; !process::fs::exists(lock) || process::fs::file_size(lock, none) == 0;) usleep(1000);
     process::running second(s.begin, elsewhere);
     int const refused = second.wait();
     std::string const said = process::read_all(elsewhere.string() + ".said");

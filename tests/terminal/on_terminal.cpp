@@ -6,7 +6,6 @@
 
 #include <chrono>
 #include <cstdio>
-#include <regex>
 
 #include "kill/process.hpp"
 
@@ -71,8 +70,28 @@ private:
     std::string text_;
 };
 
-/// What is rewritten in place: a bar, percent, rate and time left.
-std::regex const shown(R"(\r\[=*>? *\] +[0-9]+ %  [0-9.e+]+ ?[kMG]? particle-steps/s  left [0-9?][0-9:]*( s)?)");
+/// Whether a text holds what is rewritten in place, as "\r[==>  ]  12 %  3.4 M particle-steps/s  left 5 s".
+bool shows_progress(std::string const& all) {
+    for (auto at = all.find("\r["); at != all.npos; at = all.find("\r[", at + 1)) {
+        auto end = at + 2;
+        auto const skip = [&](char const* allowed) {
+            auto const from = end;
+            end = std::min(all.find_first_not_of(allowed, end), all.size());
+            return end > from;
+        };
+        auto const take = [&](std::string const& word) {
+            bool const there = all.compare(end, word.size(), word) == 0;
+            end += there ? word.size() : 0;
+            return there;
+        };
+        skip("=> ");
+        if (!take("]") || !skip(" ") || !skip("0123456789") || !take(" %  ") || !skip("0123456789.e+")) continue;
+        take(" ");
+        take("k") || take("M") || take("G");
+        if (take(" particle-steps/s  left ") && skip("0123456789?")) return true;
+    }
+    return false;
+}
 
 /// Whether a text stands at the beginning of a line, in which nothing was rewritten.
 bool begins_line(std::string const& all, std::string const& text) {
@@ -84,7 +103,7 @@ void check_stopped(std::vector<std::string> const& words, path const& folder) {
     on_terminal program(words, folder);
     bool seen = false;
     while (program.read_on()) {
-        if (seen || !std::regex_search(program.text(), shown)) continue;
+        if (seen || !shows_progress(program.text())) continue;
         seen = true;
         program.stop();
     }
