@@ -4,6 +4,7 @@
 // it, and looks at what came. With output that is no terminal the same program shows nothing, if there_alone. The words are those
 // of a run of hours, whose results go into `out`.
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 
