@@ -166,7 +166,7 @@ void use_formula(typename Law::template parameters<T> const& parameters, pair_mo
     Law::evaluate(parameters, motion, history);
 }
 template <class Law, int Dim>
-inline constexpr bool instantiates_formula = &use_formula<Law, Dim, law_pack> != nullptr;
+inline constexpr bool instantiates_formula = (static_cast<void>(&use_formula<Law, Dim, law_pack>), true);
 } // namespace detail
 
 } // namespace lacuna
