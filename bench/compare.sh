@@ -8,9 +8,9 @@
 #   --quick    fewer and shorter rounds, double precision only: under 50 s once all is built
 #   --million  also a fully bonded sheet of 1,000,000
 #   --three    blocks of spheres in space instead of sheets: works full3 and frictional3
-#   --json     a list of objects on stdout, instead of a table: work, particles, real, ours, peer, ratio, ns_per_pair,
+#   --json     a list of objects on stdout, instead of a table: work, particles, real, ours, lammps, ratio, ns_per_pair,
 #              rss_mb
-# The peer's figure is for its frictional sheet or block, whatever our work. Where LAMMPS cannot be had, peer and ratio are null.
+# The figure of LAMMPS is for its frictional sheet or block, whatever our work. Where LAMMPS cannot be had, lammps and ratio are null.
 # Exit status 1 when a work fails its physics checks; never because of a time.
 set -eu
 
@@ -34,7 +34,7 @@ say() { echo "compare: $*" >&2; }
 
 sh "$root/cmake/dependencies.sh" demo >&2
 command -v lmp >/dev/null 2>&1 || sh "$root/cmake/dependencies.sh" demo lammps >&2 || say "LAMMPS could not be installed"
-peer=$(command -v lmp || true)
+lammps=$(command -v lmp || true)
 
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
@@ -73,17 +73,17 @@ one_ours() {
     sed -n 's/.*"ours": \([^,]*\),.*"ns_per_pair": \([^,]*\),.*"rss_mb": \([^,]*\),.*/\1 \2 \3/p' "$scratch/line" |
         sed "s/^/ours $1 $2 $3 /" >>"$scratch/results"
 }
-# one_peer PARTICLES WARM STEPS: appends "peer PARTICLES rate".
-one_peer() {
-    [ -n "$peer" ] || return 0
+# time_lammps PARTICLES WARM STEPS: appends "lammps PARTICLES rate".
+time_lammps() {
+    [ -n "$lammps" ] || return 0
     load=$(sed -n '1s/.* //p' "$scratch/sheet_$1")
-    if $pin "$peer" -in "$root/bench/peer.lammps" -log none -screen "$scratch/peer" -var sheet "$scratch/sheet_$1" \
+    if $pin "$lammps" -in "$root/bench/sheet.lammps" -log none -screen "$scratch/lammps" -var sheet "$scratch/sheet_$1" \
         -var load "$load" -var warm "$2" -var steps "$3" -var dim "$dim" >/dev/null 2>&1; then
-        awk -v n="$1" '/^Loop time of/ { rate = $(NF - 1) * $(NF - 4) / $4 } END { if (rate) print "peer", n, rate }' \
-            "$scratch/peer" >>"$scratch/results"
+        awk -v n="$1" '/^Loop time of/ { rate = $(NF - 1) * $(NF - 4) / $4 } END { if (rate) print "lammps", n, rate }' \
+            "$scratch/lammps" >>"$scratch/results"
     else
-        say "LAMMPS failed: $(tail -n 3 "$scratch/peer")"
-        peer=
+        say "LAMMPS failed: $(tail -n 3 "$scratch/lammps")"
+        lammps=
     fi
 }
 # one_plain PARTICLES SECONDS: appends "plain PARTICLES rate".
@@ -114,7 +114,7 @@ for particles in $sizes; do
         for work in $works; do
             for real in $reals; do one_ours "$work" "$particles" "$real" "$seconds"; done
         done
-        one_peer "$particles" "$warm" "$steps"
+        time_lammps "$particles" "$warm" "$steps"
         [ "$three" = 1 ] || one_plain "$particles" "$seconds"
         round=$((round + 1))
     done
@@ -136,20 +136,20 @@ $1 == "ours" {
     pair[key] = pair[key] " " $6
     if ($7 > memory[key]) memory[key] = $7
 }
-$1 == "peer" { peer[$2] = peer[$2] " " $3 }
+$1 == "lammps" { lammps[$2] = lammps[$2] " " $3 }
 $1 == "plain" { plain[$2] = plain[$2] " " $3; if (!($2 in seen)) { seen[$2] = 1; plains[++sizes] = $2 } }
 END {
     if (json)
         printf "["
     else
         printf "%-11s %9s %-6s %8s %8s %6s %8s %8s   (M particle-steps/s)\n", "work", "particles", "real", "ours",
-        "peer", "ratio", "ns/pair", "RSS MB"
+        "LAMMPS", "ratio", "ns/pair", "RSS MB"
     for (k = 1; k <= keys; ++k) {
         split(order[k], name, " ")
         ours = median(rate[order[k]])
-        his = name[2] in peer ? median(peer[name[2]]) : 0
+        his = name[2] in lammps ? median(lammps[name[2]]) : 0
         if (json)
-            printf "%s\n  {\"work\": \"%s\", \"particles\": %d, \"real\": \"%s\", \"ours\": %.6g, \"peer\": %s, " \
+            printf "%s\n  {\"work\": \"%s\", \"particles\": %d, \"real\": \"%s\", \"ours\": %.6g, \"lammps\": %s, " \
                 "\"ratio\": %s, \"ns_per_pair\": %.4g, \"rss_mb\": %.1f}", (k > 1 ? "," : ""), name[1], name[2], name[3],
                 ours, (his ? sprintf("%.6g", his) : "null"), (his ? sprintf("%.4g", ours / his) : "null"),
                 median(pair[order[k]]), memory[order[k]]

@@ -66,7 +66,7 @@ flow_type make_flow(packing const& p, double threshold) {
     for (std::size_t k = 0; k < flow.network().pores(); ++k)
         flow.set_pressure(k, half_wave(flow.network(), k, points));
     flow.refresh_apertures(lacuna::particle_records(points, p.r.data()), std::vector<double>(4, 0.0).data());
-    flow.skip_idle_throats(1.0); // forms the clusters; skips none
+    flow.deactivate_slow_throats(1.0); // forms the clusters; skips none
     return flow;
 }
 

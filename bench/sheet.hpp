@@ -36,7 +36,7 @@ inline work parse_work(std::string const& name) {
     throw std::invalid_argument("work: '" + name + "', must be one of full, half, frictional, half_fluid, full3, frictional3");
 }
 
-/// Constants of the work, for us and for the peer alike.
+/// Constants of the work, for Lacuna and LAMMPS alike.
 struct sheet_constants {
     double normal_stiffness = 20, shear_stiffness = 10, friction = 0.1;
     double smallest_radius = 1.5, largest_radius = 2;

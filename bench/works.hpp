@@ -41,7 +41,7 @@ struct fluid_constants {
     double minimum_volume_fraction = 0.05;
 };
 
-/// Thickness of the discs, with which a disc of mean radius weighs as much as a sphere, the peer's particle.
+/// Thickness of the discs, with which a disc of mean radius weighs as much as a sphere, the particle of LAMMPS.
 inline constexpr double sheet_thickness = 4.0 / 3 * 1.75;
 
 /// Part of the sheet's load that a work carries. Bonds start without force, so that a fully bonded sheet would be struck
@@ -199,11 +199,11 @@ double momentum_drift(work w) {
     return std::max(norm(after.momentum - before.momentum) / linear, norm(after.spin - before.spin) / angular);
 }
 
-/// Pairs that the step works on, fillers of the packs left out.
+/// Pairs that the step works on, padding of the packs left out.
 template <class Table>
 std::size_t count_pairs(Table const& table, std::size_t particles) {
     std::size_t count = 0;
-    for (std::size_t k = 0; k < table.slots(); ++k) count += table.is_filler(k, particles) ? 0 : 1;
+    for (std::size_t k = 0; k < table.slots(); ++k) count += table.is_padding(k, particles) ? 0 : 1;
     return count;
 }
 
@@ -268,7 +268,7 @@ public:
             r.open_throats = net.open_throats();
             double flow = 0;
             for (std::size_t t = 0; t < r.open_throats; ++t) {
-                r.active_throats += net.idle[t] ? 0 : 1;
+                r.active_throats += net.inactive[t] ? 0 : 1;
                 flow = std::max(flow, std::fabs(double(net.flow[t])));
             }
             r.found.demand(r.active_throats == r.open_throats, "throats in use", double(r.active_throats),

@@ -56,7 +56,7 @@ std::unique_ptr<lacuna::simulation<Model>> load_specimen(specimen const& s, opti
     as template std::unique_ptr<lacuna::simulation<cartilage::Model>> cartilage::load_specimen(                         \
         cartilage::specimen const&, cartilage::options const&);                                                        \
     as template void lacuna::simulation<cartilage::Model>::take_step<true>();                                           \
-    as template void lacuna::simulation<cartilage::Model>::settle_time_step() const;                                    \
+    as template void lacuna::simulation<cartilage::Model>::resolve_time_step() const;                                    \
     as template lacuna::time_step_limits lacuna::simulation<cartilage::Model>::limits() const;
 CARTILAGE_INSTANTIATE(dry_model, extern)
 CARTILAGE_INSTANTIATE(wet_model, extern)

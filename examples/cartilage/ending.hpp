@@ -10,7 +10,7 @@
 
 namespace cartilage {
 
-/// When a run is over (MODEL.md section 7): after the duration asked for; without one, once it is quiet, which is when
+/// When a run is over: after the duration asked for; without one, once it is quiet, which is when
 /// no bond has broken for a while and hardly any motion is left, or after its longest time.
 class ending {
 public:

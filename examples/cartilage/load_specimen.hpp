@@ -114,7 +114,7 @@ void set_up(lacuna::simulation<Model>& sim, lacuna::cartilage_specimen<double> c
     }
     if (open.load == load_rule::platen) {
         std::vector<std::size_t> const under_it(s.loaded.begin(), s.loaded.end());
-        sim.join(under_it, 1);
+        sim.attach_to_rigid_plate(under_it, 1);
     }
     if constexpr (lacuna::has_fluid<Model>)
         sim.fill_pores([rule = open.drainage](lacuna::points_view<double, 2> points, double const* radii) {

@@ -48,7 +48,7 @@ private:
     void add_stress(Simulation const& sim, Table const& pairs, std::vector<double>& stress) const {
         auto const& store = sim.particles();
         for (std::size_t slot = 0; slot < pairs.slots(); ++slot) {
-            if (pairs.is_filler(slot, store.size())) continue;
+            if (pairs.is_padding(slot, store.size())) continue;
             auto const place = sim.pairs().find_force(pairs.i(slot), pairs.j(slot));
             if (place < 0) continue;
             double const force = double(sim.pairs().force_column()[place + 1]);

@@ -42,7 +42,7 @@ struct probe {
     std::optional<double> capacity_time;     ///< s, when the first layer had half of its bonds broken
     std::optional<double> complete_time;     ///< s, when 90 % of the fibres were cut
     double broken_fraction = 0;              ///< broken bonds over bonds, at the end
-    double first_layer_fraction = 0;         ///< the same of the first layer (MODEL.md: top fibre, top fifth, centre fibre)
+    double first_layer_fraction = 0;         ///< the same of the first layer (top fibre, top fifth, centre fibre)
     double cut_fraction = 0;                 ///< fibres with a broken bond over fibres
     double peak_pore_pressure = 0;           ///< Pa
     double energy_residual_fraction = 0;     ///< of the ledger, over its largest term

@@ -97,8 +97,8 @@ typename chosen_flow::solver<Real, Dim>::network_type const& chosen_flow::solver
     return std::visit([](auto const& one) -> network_type const& { return one.network(); }, chosen_);
 }
 template <class Real, int Dim>
-std::size_t chosen_flow::solver<Real, Dim>::skip_idle_throats() {
-    return std::visit([&](auto& one) { return std::size_t(one.skip_idle_throats()); }, chosen_);
+std::size_t chosen_flow::solver<Real, Dim>::deactivate_slow_throats() {
+    return std::visit([&](auto& one) { return std::size_t(one.deactivate_slow_throats()); }, chosen_);
 }
 
 template <class Real, int Dim>

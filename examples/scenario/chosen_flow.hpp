@@ -94,7 +94,7 @@ struct chosen_flow {
         lacuna::flow_ledger<Real> const& ledger() const;
         network_type const& network() const;
         parameters const& settings() const { return parameters_; }
-        std::size_t skip_idle_throats();
+        std::size_t deactivate_slow_throats();
         /// Goes on with another network of the same body; see the solvers.
         void restore(network_type network, lacuna::flow_ledger<Real> const& ledger);
         template <class Archive>

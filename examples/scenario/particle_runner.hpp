@@ -148,7 +148,7 @@ void particle_runner<Model>::set_up() {
     auto const drives = drives_of(s);
     for (std::size_t k = 0; k < drives.size(); ++k) {
         drive const& d = drives[k];
-        if (d.velocity) sim_->move(k, *d.velocity, d.velocity_ramp, driven_axes(held[k]));
+        if (d.velocity) sim_->prescribe_velocity(k, *d.velocity, d.velocity_ramp, driven_axes(held[k]));
         if (d.loaded) sim_->apply(k, d.force, d.torque, d.load_ramp);
     }
     fill();
@@ -224,7 +224,7 @@ void particle_runner<Model>::drive_on(scenario const& before) {
         bool const as_before = a.velocity.has_value() == b.velocity.has_value() &&
                                (!b.velocity || (a.velocity_ramp == b.velocity_ramp && *a.velocity == *b.velocity));
         if (!as_before && b.velocity)
-            sim_->move(k, *b.velocity, b.velocity_ramp, driven_axes(held[k]));
+            sim_->prescribe_velocity(k, *b.velocity, b.velocity_ramp, driven_axes(held[k]));
         else if (!as_before)
             sim_->release(k, held[k]);
         if (a.force == b.force && a.torque == b.torque && a.load_ramp == b.load_ramp) continue;
@@ -413,7 +413,7 @@ double particle_runner<Model>::read(probe const& p) const {
         auto const& pairs = sim_->pairs();
         double count = 0;
         for (std::size_t slot = 0; begun && slot < pairs.contacts().slots(); ++slot) {
-            if (pairs.contacts().is_filler(slot, sim_->size())) continue;
+            if (pairs.contacts().is_padding(slot, sim_->size())) continue;
             auto const at = pairs.find_force(pairs.contacts().i(slot), pairs.contacts().j(slot));
             count += pairs.force_column()[at + 3] != 0;
         }

@@ -17,7 +17,7 @@ using lacuna::max; // of numbers, packs of numbers and dual numbers alike
 
 struct ellipse : lacuna::plain_envelope {
     template <class T>
-    static verdict<T> judge(parameters<T> const&, T normal, T shear, T tensile_limit, T shear_limit) {
+    static failure<T> check_strength(parameters<T> const&, T normal, T shear, T tensile_limit, T shear_limit) {
         T across = max(normal, T(0)) / tensile_limit, along = shear / shear_limit;
         return {across * across + along * along > T(1), across >= along};
     }

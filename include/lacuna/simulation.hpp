@@ -109,7 +109,7 @@ public:
         interactions_.set_deepest_overlap(p.guards.largest_overlap());
         update_walls();
         reports_.resize(std::size_t(interactions_.chunks()));
-        extra_.resize(store_.size() * pair_forces<real, dim>::records_per_pair);
+        other_forces_.resize(store_.size() * pair_forces<real, dim>::records_per_pair);
         set_up_hash places;
         for (auto const& x : packing.position) places.add(x);
         set_up_.places = places.value();
@@ -121,11 +121,11 @@ public:
     void set_velocity(std::size_t id, point const& v) {
         note(set_up::velocities);
         motions_.forget(internal(id));
-        give_velocity(internal(id), v);
+        apply_velocity_change(internal(id), v);
     }
     /// Prescribes a particle's velocity, and fixes it along the axes: from the one it has it changes linearly to v
     /// within ramp_time, from now on; 0: at once. m/s, s. The ledger books what it takes as work from outside.
-    void move(std::size_t id, point const& v, double ramp_time = 0, fixed_axes const& axes = {true, true, true, false}) {
+    void prescribe_velocity(std::size_t id, point const& v, double ramp_time = 0, fixed_axes const& axes = {true, true, true, false}) {
         for (int axis = 0; axis < dim; ++axis) require_finite("velocity of particle " + std::to_string(id), v[axis]);
         require_not_negative("ramp_time of particle " + std::to_string(id), ramp_time);
         fix(id, axes);
@@ -142,7 +142,7 @@ public:
     void set_spin(std::size_t id, vec<double, rotation_dim<dim>> const& w) {
         auto const k = internal(id);
         note(set_up::velocities);
-        kicked_.push_back({k, store_.velocity(k), store_.spin(k), true});
+        velocity_changes_.push_back({k, store_.velocity(k), store_.spin(k), true});
         ledger_.book_work(0.5 * double(store_.moment_of_inertia(k)) * (squared_norm(w) - squared_norm(convert<double>(store_.spin(k)))));
         store_.set_spin(k, convert<real>(w));
     }
@@ -154,7 +154,7 @@ public:
     }
     /// Joins particles to a rigid, smooth plate, see rigid_plates: from now on they move as one along the axis. Not to
     /// be given velocities of their own afterwards.
-    void join(std::span<std::size_t const> ids, int axis) {
+    void attach_to_rigid_plate(std::span<std::size_t const> ids, int axis) {
         std::vector<std::size_t> particles;
         for (std::size_t const id : ids) particles.push_back(internal(id));
         plates_.add(store_, std::move(particles), axis);
@@ -187,7 +187,7 @@ public:
         note(set_up::walls);
     }
     /// Lets a servo hold the stress on a wall from now on, until move_wall().
-    void hold_wall(std::size_t w, wall_servo<dim> const& servo) {
+    void servo_wall(std::size_t w, wall_servo<dim> const& servo) {
         wall_drive_.hold(w, servo);
         note(set_up::walls);
     }
@@ -234,7 +234,7 @@ public:
         constexpr bool always = (detail::needs_energy<Observers> || ...);
         constexpr bool sometimes = !always && (detail::samples_energy<Observers> || ...);
         settle_anew();
-        settle_time_step();
+        resolve_time_step();
         (detail::notify_start(observers, *this), ...);
         long long taken = 0;
         for (bool go_on = true; go_on && taken < steps; ++taken) {
@@ -251,7 +251,7 @@ public:
 
     long long steps() const noexcept { return step_; }
     double time_step() const {
-        settle_time_step();
+        resolve_time_step();
         return *time_step_;
     }
     double time() const { return clock_.time + double(step_ - clock_.step) * time_step(); }
@@ -265,7 +265,7 @@ public:
         take_step<true>();
     }
 
-    /// Limits of the time step in the present state (MODEL.md section 6), by what the control of the step counts: bonds,
+    /// Limits of the time step in the present state, by what the control of the step counts: bonds,
     /// contacts of particles and walls that touch or may before the next look, and the fluid; with laws that stiffen
     /// contacts are taken to be as deep as then they may be. See assumed_contacts() and step_control.
     time_step_limits limits() const { return find_limits_of(assumed_contacts()); }
@@ -341,12 +341,12 @@ public:
         walls_.archive(ar, store_);
         ar(wall_drive_);
         fluid_.archive(ar, store_);
-        ar(events_, kicked_, motions_, plates_, ledger_, guards_, time_step_, control_, moved_, step_);
+        ar(events_, velocity_changes_, motions_, plates_, ledger_, guards_, time_step_, control_, max_displacement_, step_);
         ar(clock_.time, clock_.step, clock_.last);
         require_state(motions_.fits(store_.size()), "a motion prescribed to no particle");
         require_state(plates_.fit(store_.size()), "a rigid plate of no particle");
         require_state(guards_.fit(store_.size()), "guards that follow no particle");
-        for (auto const& k : kicked_) require_state(k.particle < store_.size(), "a velocity given to no particle");
+        for (auto const& k : velocity_changes_) require_state(k.particle < store_.size(), "a velocity given to no particle");
         require_state(!time_step_ || (*time_step_ > 0 && std::isfinite(*time_step_)), "its time step");
         require_state(step_ >= 0 && step_ < (1LL << 62), "its number of steps");
         if constexpr (Archive::is_loading::value) {
@@ -390,7 +390,7 @@ private:
 
     template <bool WithEnergy>
     void take_step() {
-        settle_time_step();
+        resolve_time_step();
         if (step_ == 0) set_up_ = set_up_so_far();
         bool const changed = interactions_.update(store_);
         if (changed || walls_.outdated(store_)) update_walls();
@@ -400,16 +400,16 @@ private:
         auto const dt = real(*time_step_);
         clock_.last = *time_step_;
         loads_.advance(store_, time());
-        motions_.advance(time(), *time_step_, [&](std::size_t k, point const& v) { give_velocity(k, v); });
+        motions_.advance(time(), *time_step_, [&](std::size_t k, point const& v) { apply_velocity_change(k, v); });
         for (auto& r : reports_) r = {};
 
         int const chunks = interactions_.chunks();
-        bool const further_forces = filled() || !walls_.empty() || !plates_.empty() || carries_moment<bond_law_type> ||
+        bool const has_other_forces = filled() || !walls_.empty() || !plates_.empty() || carries_moment<bond_law_type> ||
                                     carries_moment<contact_law_type>;
-        bool const on_time = parameters_.velocities_on_time && (step_ == 0 || !kicked_.empty());
+        bool const on_time = parameters_.velocities_on_time && (step_ == 0 || !velocity_changes_.empty());
         bool remeshed = false;
         std::int32_t given = -1;
-        interactions_.set_mode(store_, !parameters_.keep_pair_forces, parameters_.threads);
+        interactions_.set_force_retention(store_, !parameters_.keep_pair_forces, parameters_.threads);
         auto const& spans = interactions_.spans();
         // A particle's pairs belong to it and to lower-numbered ones: once the pairs of a chunk are evaluated, nothing
         // reads its particles again, and `finish` can treat them while they and their forces are in the cache.
@@ -426,38 +426,38 @@ private:
             });
         };
         bool const changes_step = dt != before;
-        if (!further_forces && kicked_.empty() && !on_time && !changes_step && spans.count() == parameters_.threads) {
+        if (!has_other_forces && velocity_changes_.empty() && !on_time && !changes_step && spans.count() == parameters_.threads) {
             evaluate_spans([&](int c) {
-                interactions_.with_fresh_forces_on(c, [&](auto const& force) { move<WithEnergy>(c, dt, force, nullptr); });
+                interactions_.for_fresh_force_sums(c, [&](auto const& force) { move<WithEnergy>(c, dt, force, nullptr); });
             });
         } else {
             // The slip of a step is that of the motion before it, which was not at velocities given since.
-            std::for_each(kicked_.rbegin(), kicked_.rend(), [&](kick& k) { exchange(k); });
-            if (interactions_.streams()) {
-                interactions_.prepare_sums(store_);
-                evaluate_spans([&](int c) { interactions_.keep_sums(store_, c); });
+            std::for_each(velocity_changes_.rbegin(), velocity_changes_.rend(), [&](velocity_change& k) { swap_velocities(k); });
+            if (interactions_.forces_are_transient()) {
+                interactions_.prepare_force_sums(store_);
+                evaluate_spans([&](int c) { interactions_.keep_force_sums(store_, c); });
             } else {
                 for_each_chunk(chunks, parameters_.threads,
                                [&](int c) { interactions_.template evaluate<WithEnergy>(store_, c, before); });
             }
-            if (further_forces) remeshed = add_further_forces<WithEnergy>(before, changed);
+            if (has_other_forces) remeshed = compute_other_forces<WithEnergy>(before, changed);
             drive_walls(double(dt));
-            for (auto& k : kicked_) {
-                exchange(k);
-                if constexpr (WithEnergy) ledger_.book_work(work_of_kick(k, before));
+            for (auto& k : velocity_changes_) {
+                swap_velocities(k);
+                if constexpr (WithEnergy) ledger_.book_work(work_of_velocity_change(k, before));
             }
-            if (on_time) set_back((before + dt) / 4);
-            if (changes_step) share_kick((dt - before) / 2);
+            if (on_time) shift_to_half_step((before + dt) / 4);
+            if (changes_step) shorten_half_kick((dt - before) / 2);
             given = fastest_given();
             guards_.follow(store_, given);
-            kicked_.clear();
+            velocity_changes_.clear();
             for_each_chunk(chunks, parameters_.threads, [&](int c) {
-                interactions_.with_forces_on(
-                    c, [&](auto const& force) { move<WithEnergy>(c, dt, force, further_forces ? &extra_ : nullptr); });
+                interactions_.for_force_sums(
+                    c, [&](auto const& force) { move<WithEnergy>(c, dt, force, has_other_forces ? &other_forces_ : nullptr); });
             });
         }
         collect_events();
-        moved_ = guards_.check_motion(store_, interactions_, reports_, dt, given, now());
+        max_displacement_ = guards_.check_motion(store_, interactions_, reports_, dt, given, now());
         count_paths<dim>(std::span<motion_report<real> const>(reports_), dt, interactions_, walls_);
         if constexpr (WithEnergy) {
             auto pairs = interactions_.energy();
@@ -473,14 +473,14 @@ private:
                 (changed || step_ % 64 == 63))
                 check_pores(store_, fluid_.get()->network(), now(), guards_.crushed(store_, interactions_));
         if (minds_step())
-            control_.moved(std::max(double(moved_), walls_.fastest() * double(dt)),
+            control_.moved(std::max(double(max_displacement_), walls_.fastest() * double(dt)),
                            std::max(interactions_.take_deepest(), walls_.take_deepest()), !events_.empty());
         ++step_;
-        if (remeshed || step_ % 64 == 0) mind_flow_limit();
+        if (remeshed || step_ % 64 == 0) enforce_flow_limit();
     }
 
     /// What a particle's velocities were before they were given new ones between two steps.
-    struct kick {
+    struct velocity_change {
         std::size_t particle;
         vec<real, dim> velocity;
         vec<real, rotation_dim<dim>> spin;
@@ -490,13 +490,13 @@ private:
     std::int32_t fastest_given() const noexcept {
         std::int32_t found = -1;
         real speed = -1;
-        for (kick const& k : kicked_)
+        for (velocity_change const& k : velocity_changes_)
             if (real const own = squared_norm(store_.velocity(k.particle)); !k.spun && own > speed)
                 speed = own, found = std::int32_t(k.particle);
         return found;
     }
-    void exchange(kick& k) {
-        auto const now = kick{k.particle, store_.velocity(k.particle), store_.spin(k.particle), k.spun};
+    void swap_velocities(velocity_change& k) {
+        auto const now = velocity_change{k.particle, store_.velocity(k.particle), store_.spin(k.particle), k.spun};
         store_.set_velocity(k.particle, k.velocity);
         store_.set_spin(k.particle, k.spin);
         k = now;
@@ -504,18 +504,18 @@ private:
 
     particle_force<real, dim> kept_force(std::size_t id) const {
         if (!parameters_.keep_pair_forces) throw std::logic_error("simulation: force() needs keep_pair_forces");
-        return total_force(store_, interactions_, extra_, internal(id));
+        return total_force(store_, interactions_, other_forces_, internal(id));
     }
 
-    void give_velocity(std::size_t k, point const& v) {
-        kicked_.push_back({k, store_.velocity(k), store_.spin(k), false});
+    void apply_velocity_change(std::size_t k, point const& v) {
+        velocity_changes_.push_back({k, store_.velocity(k), store_.spin(k), false});
         ledger_.book_work(0.5 * double(store_.mass(k)) * (squared_norm(v) - squared_norm(convert<double>(store_.velocity(k)))));
         store_.set_velocity(k, convert<real>(v));
     }
 
-    /// What the ledger's work and kinetic energy of this step, made with the new velocity alone, leave out of a kick.
-    double work_of_kick(kick const& k, real before) const {
-        auto const whole = total_force(store_, interactions_, extra_, k.particle);
+    /// What the ledger's work and kinetic energy of this step, made with the new velocity alone, leave out of a velocity_change.
+    double work_of_velocity_change(velocity_change const& k, real before) const {
+        auto const whole = total_force(store_, interactions_, other_forces_, k.particle);
         auto const change = store_.velocity(k.particle) - k.velocity;
         double work = double(dot(whole.force - store_.applied_force(k.particle), change));
         auto const turn = (store_.spin(k.particle) - k.spin) * store_.radius(k.particle);
@@ -528,23 +528,23 @@ private:
     }
 
     /// Velocities that were given at the time of the positions become those of half a step before.
-    void set_back(real half_a_step) {
+    void shift_to_half_step(real half_a_step) {
         std::vector<char> done(2 * store_.size(), 0); // velocities, spins
         auto const once = [&](std::size_t k, bool spin) {
             if (std::exchange(done[2 * k + spin], char(1))) return;
-            auto const force = total_force(store_, interactions_, extra_, k);
+            auto const force = total_force(store_, interactions_, other_forces_, k);
             spin ? set_spin_back(store_, force, k, half_a_step) : set_velocity_back(store_, force, k, half_a_step);
         };
-        for (kick const& k : kicked_) once(k.particle, k.spun);
+        for (velocity_change const& k : velocity_changes_) once(k.particle, k.spun);
         for (std::size_t k = 0; step_ == 0 && k < store_.size(); ++k)
             for (bool const spin : {false, true}) once(k, spin);
     }
 
     /// From the middle of one step to that of the next, of another length, it takes half of each: velocities give what a
-    /// kick of the whole next step has too much.
-    void share_kick(real too_long) {
+    /// velocity_change of the whole next step has too much.
+    void shorten_half_kick(real too_long) {
         for (std::size_t k = 0; k < store_.size(); ++k) {
-            auto const force = total_force(store_, interactions_, extra_, k);
+            auto const force = total_force(store_, interactions_, other_forces_, k);
             set_velocity_back(store_, force, k, too_long);
             set_spin_back(store_, force, k, too_long);
         }
@@ -560,28 +560,28 @@ private:
 
     /// \return whether the pores were made anew
     template <bool WithEnergy>
-    bool add_further_forces(real dt, bool pairs_changed) {
+    bool compute_other_forces(real dt, bool pairs_changed) {
         bool remeshed = false;
         if (pairs_changed) {
             fluid_.map_throats(interactions_);
-            fluid_.skip_idle_throats(store_, interactions_);
+            fluid_.deactivate_slow_throats(store_, interactions_);
         }
         if (filled()) {
-            fluid_.template step<WithEnergy>(store_, interactions_, dt, step_, parameters_.threads, extra_);
+            fluid_.template step<WithEnergy>(store_, interactions_, dt, step_, parameters_.threads, other_forces_);
             remeshed = fluid_.remesh(store_, interactions_, step_);
         } else
-            std::fill(extra_.data(), extra_.data() + 4 * extra_.size(), real(0));
-        interactions_.add_moments(store_, extra_);
+            std::fill(other_forces_.data(), other_forces_.data() + 4 * other_forces_.size(), real(0));
+        interactions_.add_moments(store_, other_forces_);
         if (!walls_.empty()) {
-            auto const beyond = walls_.evaluate(store_, dt, parameters_.damping, extra_, wall_energy_);
+            auto const beyond = walls_.evaluate(store_, dt, parameters_.damping, other_forces_, wall_energy_);
             if (beyond >= 0 && parameters_.guards.walls)
                 throw_unstable(store_, now(), beyond, "its centre is beyond a wall",
                                step_ == 0 ? "it is there from the start: a wall's point or normal, or the particle's position"
                                           : "the load or speed is too high for the stiffness of the wall");
         }
         if (!plates_.empty())
-            plates_.share(store_, [&](std::size_t k) { return total_force(store_, interactions_, extra_, k).force; },
-                          extra_);
+            plates_.share(store_, [&](std::size_t k) { return total_force(store_, interactions_, other_forces_, k).force; },
+                          other_forces_);
         return remeshed;
     }
 
@@ -647,7 +647,7 @@ private:
         auto const look = [&](contact_assumption const& at) {
             return find_limits<Model>(store_, interactions_, walls_, fluid_.get(), parameters_.damping, at, scratch_);
         };
-        double const speed = std::max(double(moved_) / clock_.last, walls_.fastest());
+        double const speed = std::max(double(max_displacement_) / clock_.last, walls_.fastest());
         auto assumed = next_assumption(control_.cannot_wait(), chooses_step() ? 2 * speed * *time_step_ : 0);
         auto found = look(assumed);
         if (!chooses_step() && control_.cannot_wait() && !(*time_step_ <= found.rigorous)) {
@@ -662,7 +662,7 @@ private:
                 assumed = next_assumption(true, 2 * speed * longer);
                 found = look(assumed);
             }
-        double const critical = found.rigorous; // that of the fluid alone: mind_flow_limit()
+        double const critical = found.rigorous; // that of the fluid alone: enforce_flow_limit()
         if (chooses_step()) {
             double const now = *time_step_, most = parameters_.safety * found.flow;
             double const wanted = speed > 0 ? std::min(chosen_step(critical), std::max(now, assumed.gap / (2 * speed))) : chosen_step(critical);
@@ -682,7 +682,7 @@ private:
 
     /// Where throats have opened, or pores were made anew, the step may be too long for an explicit flow: one of our
     /// choice is chosen again, one that was asked for ends the run.
-    void mind_flow_limit() {
+    void enforce_flow_limit() {
         if constexpr (has_fluid<Model>) {
             double const limit = flow_limit(*fluid_.get());
             if (*time_step_ <= limit || parameters_.allow_unstable_step) return;
@@ -716,7 +716,7 @@ private:
         if (step_ == 0) time_step_.reset();
     }
     /// Fixes the time step on first use: the one asked for, if it is stable, or a share of the critical one.
-    void settle_time_step() const {
+    void resolve_time_step() const {
         if (time_step_) return;
         if constexpr (has_fluid<Model>)
             if (!filled()) throw std::logic_error("simulation: the model has a fluid but fill_pores() was not called");
@@ -759,10 +759,10 @@ private:
     wall_drive<dim> wall_drive_;
     std::array<double, 2> wall_power_{};
     pair_energy wall_energy_;
-    record_column<real> extra_;
+    record_column<real> other_forces_;
     std::vector<motion_report<real>> reports_;
     std::vector<event_type> events_;
-    std::vector<kick> kicked_;
+    std::vector<velocity_change> velocity_changes_;
     ledger_keeper<real> ledger_;
     run_guards<Model> guards_;
     prescribed_motion<dim> motions_;
@@ -778,7 +778,7 @@ private:
     };
     step_clock clock_{parameters_.start_time, 0, 0};
     set_up_record set_up_; ///< up to the first step
-    real moved_ = 0; ///< upper bound of the path of every particle in the last step, m
+    real max_displacement_ = 0; ///< upper bound of the path of every particle in the last step, m
     long long step_ = 0;
 };
 

@@ -76,11 +76,11 @@ void check_records() {
     REQUIRE(reinterpret_cast<std::uintptr_t>(column.data()) % 64 == 0);
     std::int32_t offset[W];
     for (int k = 0; k < W; ++k) offset[k] = 4 * ((7 * k + 3) % 40);
-    auto const turned = turn_records<T, W>([&](int k) { return record<T>::load(column.data() + offset[k]); });
+    auto const turned = transpose_load<T, W>([&](int k) { return record<T>::load(column.data() + offset[k]); });
     for (int k = 0; k < W; ++k)
         for (int l = 0; l < 4; ++l) REQUIRE(turned[std::size_t(l)][k] == T(10 * ((7 * k + 3) % 40)) + T(l));
     std::vector<T> back(4 * W + 8, T(-7));
-    store_turned<T, W>(back.data() + 4, turned);
+    transpose_store<T, W>(back.data() + 4, turned);
     for (int k = 0; k < W; ++k)
         for (int l = 0; l < 4; ++l) REQUIRE(back[std::size_t(4 + 4 * k + l)] == turned[std::size_t(l)][k]);
     for (std::size_t k = 0; k < 4; ++k) {
@@ -98,7 +98,7 @@ void check_bodies() {
     REQUIRE(column.size() == 20);
     REQUIRE(column.of(3, 1)[2] == T(36));
     REQUIRE(column[3][2] == T(32));
-    auto const turned = turn_bodies<T, W>([&]<int N>(int k, int first) {
+    auto const turned = transpose_load2<T, W>([&]<int N>(int k, int first) {
         return pack<T, N>::load(column.data() + 8 * ((7 * k + 3) % 20) + first);
     });
     for (int k = 0; k < W; ++k)

@@ -79,7 +79,7 @@ lacuna::simulation<body_of_floats> make(body_of_floats) {
     p.walls = {{{0, 0, -0.49}, {0, 0, 1}, p.materials[0].contact}};
     lacuna::simulation<body_of_floats> run(spheres, p);
     run.apply(3, {1, 1, 0}, {0, 0, 0.1}, 10);
-    run.move(5, {0.5, 0, 0.2}, 1);
+    run.prescribe_velocity(5, {0.5, 0, 0.2}, 1);
     run.move_wall(0, {0, 0, 0.01}, 0.5);
     for (std::size_t k = 0; k < 5; ++k) run.set_velocity(k, {0.1 * double(k % 3), -0.1 * double(k % 2), 0});
     run.set_spin(6, {1, 0, -2});

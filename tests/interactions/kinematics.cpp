@@ -118,8 +118,8 @@ TEST_CASE("a rigid motion in space gives no slip, and the shear force turns with
                 i.velocity = (i.position - place(arm_i, n - 1)) / dt;
                 j.velocity = (j.position - place(arm_j, n - 1)) / dt;
                 auto const frame = relative_motion(i, j, dt);
-                shear = frame.turned(shear);
-                moved = frame.turned(moved) + frame.motion.slip;
+                shear = frame.rotate_with_pair(shear);
+                moved = frame.rotate_with_pair(moved) + frame.motion.slip;
                 length = std::max(length, std::fabs(norm(shear) - 1));
                 away = std::max(away, norm(shear - turn(shear0, axis, 2 * pi * n / steps_per_turn)));
             }

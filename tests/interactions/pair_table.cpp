@@ -10,7 +10,7 @@
 #include <vector>
 
 #include <lacuna/interactions/storage/contact_list.hpp>
-#include <lacuna/interactions/storage/force_places.hpp>
+#include <lacuna/interactions/storage/force_offsets.hpp>
 #include <lacuna/interactions/storage/pair_table.hpp>
 #include <lacuna/laws/brittle_spring_bond.hpp>
 #include <lacuna/laws/frictional_spring.hpp>
@@ -48,7 +48,7 @@ std::vector<lacuna::neighbor_pair> candidates(Pairs const& pairs) {
 }
 
 /// A table's pairs as they are found slot by slot; REQUIREs that a chunk's pairs stand in its first packs, and that
-/// nothing but fillers is elsewhere.
+/// nothing but padding is elsewhere.
 std::vector<contacts_2d::entry> content(contacts_2d const& table, std::size_t particles) {
     std::vector<contacts_2d::entry> list;
     std::size_t in_use = 0;
@@ -56,7 +56,7 @@ std::vector<contacts_2d::entry> content(contacts_2d const& table, std::size_t pa
         REQUIRE(table.end_pack(c) <= table.first_pack(c + 1));
         std::size_t pairs = 0;
         for (std::size_t s = table.first_pack(c) * width; s < table.end_pack(c) * width; ++s) {
-            if (table.is_filler(s, particles)) continue;
+            if (table.is_padding(s, particles)) continue;
             REQUIRE(s == table.first_pack(c) * width + pairs);
             REQUIRE(table.i(s) / contacts_2d::chunk_particles == c);
             ++pairs;
@@ -66,7 +66,7 @@ std::vector<contacts_2d::entry> content(contacts_2d const& table, std::size_t pa
         in_use += pairs;
     }
     std::size_t all = 0;
-    for (std::size_t s = 0; s < table.slots(); ++s) all += table.is_filler(s, particles) ? 0 : 1;
+    for (std::size_t s = 0; s < table.slots(); ++s) all += table.is_padding(s, particles) ? 0 : 1;
     REQUIRE(all == in_use);
     REQUIRE(table.size() == in_use);
     return list;
@@ -238,7 +238,7 @@ TEST_CASE("pair_table: after many merges it holds what a map holds, with any num
     REQUIRE(in_place > 30);
 }
 
-TEST_CASE("force_places: packs to spare change no place", "[interactions][pair_table]") {
+TEST_CASE("force_offsets: packs to spare change no place", "[interactions][pair_table]") {
     int const count = 128 * 40;
     auto const store = discs(count);
     std::mt19937 gen(7);
@@ -258,7 +258,7 @@ TEST_CASE("force_places: packs to spare change no place", "[interactions][pair_t
             lacuna::chunk_spans spans;
             spans.build(roomy.chunks(), threads, std::size_t(count), roomy);
             REQUIRE(spans.count() == threads);
-            lacuna::force_places a, b;
+            lacuna::force_offsets a, b;
             a.build(roomy, std::size_t(count), spans, streaming);
             b.build(tight, std::size_t(count), spans, streaming);
             REQUIRE(a.count() == b.count());
@@ -271,7 +271,7 @@ TEST_CASE("force_places: packs to spare change no place", "[interactions][pair_t
         }
 }
 
-TEST_CASE("force_places: a force stays until it is summed up, whatever pairs reach", "[interactions][pair_table]") {
+TEST_CASE("force_offsets: a force stays until it is summed up, whatever pairs reach", "[interactions][pair_table]") {
     int const count = 128 * 60;
     auto const store = discs(count);
     std::mt19937 gen(11);
@@ -291,7 +291,7 @@ TEST_CASE("force_places: a force stays until it is summed up, whatever pairs rea
             lacuna::chunk_spans spans;
             spans.build(table.chunks(), threads, std::size_t(count), table);
             REQUIRE(spans.count() == threads);
-            lacuna::force_places places;
+            lacuna::force_offsets places;
             places.build(table, std::size_t(count), spans, true);
             // A long bond takes place for the chunks that it concerns, not for all.
             REQUIRE(places.count() < (far ? 2 * table.packs() / 3 : table.packs() / 2));
@@ -303,7 +303,7 @@ TEST_CASE("force_places: a force stays until it is summed up, whatever pairs rea
                 for (int c = 0; c <= chunk; ++c)
                     for (std::size_t p = table.first_pack(c); p < table.end_pack(c); ++p)
                         for (std::size_t s = p * width; s < (p + 1) * width; ++s)
-                            if (!table.is_filler(s, std::size_t(count)) && (c == chunk || table.j(s) / 128 == chunk))
+                            if (!table.is_padding(s, std::size_t(count)) && (c == chunk || table.j(s) / 128 == chunk))
                                 REQUIRE(holds[places(c, p)] == std::ptrdiff_t(p));
             };
             // In whatever order spans run: the last one first.

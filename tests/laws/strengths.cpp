@@ -108,19 +108,19 @@ TEST_CASE("Mohr-Coulomb's line with a tension cut-off by hand", "[envelope]") {
                          row{6, 8, true, true},                                       // 6/4 > 8/7
                          row{4.2, 9, true, false},                                    // 1.05 < 9/7.9
                          row{-1e6, 0, false, false}}) {                               // pure compression
-        auto const verdict = mohr_coulomb_envelope::judge(p, r.normal, r.shear, 4.0, 10.0);
+        auto const failure = mohr_coulomb_envelope::check_strength(p, r.normal, r.shear, 4.0, 10.0);
         INFO(r.normal << ", " << r.shear);
-        CHECK(verdict.broken == r.broken);
-        if (r.broken) CHECK(verdict.in_tension == r.in_tension);
+        CHECK(failure.broken == r.broken);
+        if (r.broken) CHECK(failure.in_tension == r.in_tension);
     }
     // Without a cut-off the apex of the line, c / tan phi = 20 N, is one.
-    CHECK_FALSE(mohr_coulomb_envelope::judge(p, 19.9, 0.0, 1e30, 10.0).broken);
-    CHECK(mohr_coulomb_envelope::judge(p, 20.1, 0.0, 1e30, 10.0).broken);
-    CHECK(mohr_coulomb_envelope::judge(p, 20.1, 0.0, 1e30, 10.0).in_tension);
+    CHECK_FALSE(mohr_coulomb_envelope::check_strength(p, 19.9, 0.0, 1e30, 10.0).broken);
+    CHECK(mohr_coulomb_envelope::check_strength(p, 20.1, 0.0, 1e30, 10.0).broken);
+    CHECK(mohr_coulomb_envelope::check_strength(p, 20.1, 0.0, 1e30, 10.0).in_tension);
     // Without internal friction the line is level.
     auto const level = mohr_coulomb_envelope::combine({0}, {0.8});
-    CHECK_FALSE(mohr_coulomb_envelope::judge(level, -1e3, 9.9, 4.0, 10.0).broken);
-    CHECK(mohr_coulomb_envelope::judge(level, -1e3, 10.1, 4.0, 10.0).broken);
+    CHECK_FALSE(mohr_coulomb_envelope::check_strength(level, -1e3, 9.9, 4.0, 10.0).broken);
+    CHECK(mohr_coulomb_envelope::check_strength(level, -1e3, 10.1, 4.0, 10.0).broken);
 }
 
 TEST_CASE("Mohr-Coulomb's bond has the springs of the paper's, and is not crushed", "[envelope][pack]") {
@@ -164,8 +164,8 @@ TEST_CASE("the moment against rolling: spring, limit, and where the energy goes"
     law::material const sand{1e4, 2e3, 0.5, 0.1, 1.5};
     auto const p = law::combine(sand, {1e4, 2e3, 0.5, 0.3, 0.5}, 1);
     double const ri = 0.3, rj = 0.6, R = 0.2, k = 1.0 * 2e3 * R * R, overlap = 1e-3;
-    REQUIRE_THAT(law::against_turning<2>(p, ri, rj).bending, WithinRel(k, 1e-12));
-    REQUIRE_THAT(law::against_turning<3>(p, ri, 0.0).bending, WithinRel(2e3 * ri * ri, 1e-12)); // a wall
+    REQUIRE_THAT(law::rotational_stiffness<2>(p, ri, rj).bending, WithinRel(k, 1e-12));
+    REQUIRE_THAT(law::rotational_stiffness<3>(p, ri, 0.0).bending, WithinRel(2e3 * ri * ri, 1e-12)); // a wall
     double const limit = 0.1 * R * 1e4 * overlap;
     pair_motion<double, 2> const m{ri + rj - overlap, ri, rj, {0.0}, 0};
     auto state = law::initial<double, 2>(ri + rj, ri + rj);
@@ -210,7 +210,7 @@ TEST_CASE("a beam's stiffness and the stress at its rim by hand", "[moment]") {
     auto const p = law::combine(steel, steel, t);
     double const A = 2 * R * t, I = 2.0 / 3 * R * R * R * t, G = E / 2.5, phi = 12 * E * I / (kappa * G * A * L * L);
     pair_motion<double, 2> const m{L * 1.001, ri, rj, {1e-3}, 0};
-    pair_turn<double, 2> const turn{{2e-3}, 0.0, {1, 0}};
+    pair_rotation<double, 2> const turn{{2e-3}, 0.0, {1, 0}};
     auto const a = law::evaluate(p, m, turn, law::initial<double, 2>(L, ri + rj));
     double const e = 0.5 * 1.001 * L * (rj - ri) / (ri + rj);
     double const V = 12 * E * I / (L * L * L * (1 + phi)) * (1e-3 + e * 2e-3), M = E * I / L * 2e-3;

@@ -75,7 +75,7 @@ nlohmann::json write_sheet(std::string const& folder) {
     lacuna::simulation<wet> sim(discs, p);
     fill(sim);
     for (std::size_t k = 0; k < sim.size(); ++k)
-        if (k % 12 == 0 || k % 12 == 11) sim.move(k, {k % 12 == 0 ? -2.0 : 2.0, 0.1 * double(k % 5)});
+        if (k % 12 == 0 || k % 12 == 11) sim.prescribe_velocity(k, {k % 12 == 0 ? -2.0 : 2.0, 0.1 * double(k % 5)});
     lacuna::vtk_series<> raw(folder + "/raw", 40);
     lacuna::vtk_series<lacuna::vtk_zlib> packed(folder + "/packed", 40);
     lacuna::lammps_dump dump(folder + "/sheet", 40);

@@ -55,10 +55,10 @@ struct assembly {
         lacuna::body_column<Real> column;
         column.resize(x.size() + 2);
         for (std::size_t i = 0; i < x.size() + 2; ++i) {
-            bool const ghost = i >= x.size();
+            bool const padding = i >= x.size();
             for (int axis = 0; axis < Dim; ++axis)
-                column.at(i, axis) = !ghost ? Real(x[i][axis]) : axis == 0 ? Real(i) : Real(0);
-            column.at(i, 3) = ghost ? Real(0.25) : Real(r[i]);
+                column.at(i, axis) = !padding ? Real(x[i][axis]) : axis == 0 ? Real(i) : Real(0);
+            column.at(i, 3) = padding ? Real(0.25) : Real(r[i]);
         }
         return column;
     }

@@ -42,16 +42,16 @@ struct body {
     solver flow(Boundary const& boundary = {}) const {
         return {p, make_pore_network(mesh(), points(), r.data(), boundary), 1.0, points(), r.data()};
     }
-    /// The records of a particle store: {x, y, arc, radius}, and those of two ghosts.
+    /// The records of a particle store: {x, y, arc, radius}, and those of two padding particles.
     body_column<double> place() const {
         body_column<double> column;
         column.resize(x.size() + 2);
         for (std::size_t i = 0; i < x.size() + 2; ++i) {
-            bool const ghost = i >= x.size();
-            column.at(i, 0) = ghost ? double(i - x.size()) : x[i][0];
-            column.at(i, 1) = ghost ? 0 : x[i][1];
+            bool const padding = i >= x.size();
+            column.at(i, 0) = padding ? double(i - x.size()) : x[i][0];
+            column.at(i, 1) = padding ? 0 : x[i][1];
             column.at(i, 2) = 77;
-            column.at(i, 3) = ghost ? 0.25 : r[i];
+            column.at(i, 3) = padding ? 0.25 : r[i];
         }
         return column;
     }
@@ -609,7 +609,7 @@ TEST_CASE("skipped throats are looked at again when they may have opened") {
         return 2 / (1000 * net.conductance[t] * (1 / net.volume[std::size_t(net.throat_pore[0][t])] +
                                                  1 / net.volume[std::size_t(net.throat_pore[1][t])]));
     };
-    REQUIRE(flow.skip_idle_throats(1e-9) == open);
+    REQUIRE(flow.deactivate_slow_throats(1e-9) == open);
     flow.set_pressure(0, 1.0);
     b.step(flow, 1e-6);
     for (double const q : flow.network().flow) REQUIRE(q == 0);
@@ -621,12 +621,12 @@ TEST_CASE("skipped throats are looked at again when they may have opened") {
     auto sorted = limits;
     std::sort(sorted.begin(), sorted.end());
     double const duration = (sorted[9] + sorted[10]) / 2 / 10;
-    REQUIRE(flow.skip_idle_throats(duration) == open - 10);
+    REQUIRE(flow.deactivate_slow_throats(duration) == open - 10);
     for (std::size_t k = 0; k < flow.network().pores(); ++k) flow.set_pressure(k, double(k));
     b.step(flow, 1e-9);
     for (std::size_t t = 0; t < open; ++t) {
         REQUIRE((flow.network().flow[t] != 0) == (limits[t] < 10 * duration));
-        REQUIRE((flow.network().idle[t] == 0) == (limits[t] < 10 * duration));
+        REQUIRE((flow.network().inactive[t] == 0) == (limits[t] < 10 * duration));
     }
 }
 

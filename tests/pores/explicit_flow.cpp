@@ -277,25 +277,25 @@ TEST_CASE("throats that let nothing through within the run are skipped and repor
     p.skip_ratio = 100;
     // Step limits 2 / (C (1/V + 1/V)) = 1 / C: 1 for the first, 1000 for the second (a = 0.1), 125 for the reservoir.
     solver flow(p, make_bare_network<double>({1, 1, 1}, {{0, 1, 1, 1}, {1, 2, 1, 0.1}, {2, -1, 1, 0.2, 4.0}}));
-    REQUIRE(flow.skip_idle_throats(11) == 0);
-    REQUIRE(flow.skip_idle_throats(9) == 1);
-    REQUIRE(flow.network().idle[0] == 0);
-    REQUIRE(flow.network().idle[1] == 1);
+    REQUIRE(flow.deactivate_slow_throats(11) == 0);
+    REQUIRE(flow.deactivate_slow_throats(9) == 1);
+    REQUIRE(flow.network().inactive[0] == 0);
+    REQUIRE(flow.network().inactive[1] == 1);
     // The reservoir throat has one pore: 2 / (0.008 * 1) = 250.
-    REQUIRE(flow.network().idle[2] == 0);
-    REQUIRE(flow.skip_idle_throats(2) == 2);
+    REQUIRE(flow.network().inactive[2] == 0);
+    REQUIRE(flow.deactivate_slow_throats(2) == 2);
     flow.set_pressure(1, 1);
     flow.advance(0.25);
     REQUIRE_THAT(flow.network().pressure[0], WithinRel(0.25, 1e-15));
     REQUIRE(flow.network().pressure[2] == 0);
     REQUIRE_THAT(flow.critical_time_step(), WithinRel(1.0, 1e-15));
-    REQUIRE(flow.skip_idle_throats(1e-9) == 3);
+    REQUIRE(flow.deactivate_slow_throats(1e-9) == 3);
     REQUIRE(flow.critical_time_step() == std::numeric_limits<double>::infinity());
-    REQUIRE_THROWS_WITH(flow.skip_idle_throats(0.0), contains_text("duration"));
+    REQUIRE_THROWS_WITH(flow.deactivate_slow_throats(0.0), contains_text("duration"));
 
     p.skip_ratio = std::numeric_limits<double>::infinity();
     solver all(p, make_bare_network<double>({1, 1}, {{0, 1, 1, 1e-3}}));
-    REQUIRE(all.skip_idle_throats(1e-12) == 0);
+    REQUIRE(all.deactivate_slow_throats(1e-12) == 0);
 }
 
 TEST_CASE("parameters and bare networks out of range are refused by name") {

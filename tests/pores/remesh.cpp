@@ -10,7 +10,7 @@
 
 #include "bodies.hpp"
 
-#include <lacuna/pores/remesh/carry_fluid.hpp>
+#include <lacuna/pores/remesh/transfer_fluid.hpp>
 #include <lacuna/pores/flow/explicit_flow.hpp>
 #include <lacuna/pores/flow/implicit_flow.hpp>
 #include <lacuna/pores/remesh/remesh.hpp>
@@ -75,7 +75,7 @@ TEST_CASE("a square whose diagonal turns: both pores take the mean, the content 
     auto from = made(b, {{0, 1, 2}, {0, 2, 3}}), to = made(b, {{0, 1, 3}, {1, 2, 3}});
     from.pressure[0] = 5;
     from.pressure[1] = -1;
-    auto const report = carry_fluid(from, to, b.points(), modulus, -infinity);
+    auto const report = transfer_fluid(from, to, b.points(), modulus, -infinity);
     for (std::size_t p = 0; p < 2; ++p) REQUIRE_THAT(to.pressure[p], WithinRel(2.0, 1e-14));
     REQUIRE_THAT(content(to), WithinRel(content(from), 1e-14));
     REQUIRE(report.kept == 0);
@@ -93,13 +93,13 @@ TEST_CASE("vapour is content too: it closes before the pressure rises") {
     from.pressure[0] = from.pressure[1] = -2;
     for (auto* net : {&from, &to}) net->vapour.assign(2, 0.0); // as of a fluid that can tear
     from.vapour[0] = 0.01;
-    auto const report = carry_fluid(from, to, b.points(), modulus, -2.0);
+    auto const report = transfer_fluid(from, to, b.points(), modulus, -2.0);
     REQUIRE(to.pressure[0] == -2);
     REQUIRE_THAT(to.vapour[0] + to.vapour[1], WithinRel(0.01, 1e-12));
     REQUIRE_THAT(content(to), WithinRel(content(from), 1e-13));
     REQUIRE_THAT(report.residual, WithinAbs(0, 1e-14 * report.content));
     from.pressure[1] = 98; // more than closes the vapour: 0.01 * 1000 Pa over a pore of 0.36
-    carry_fluid(from, to, b.points(), modulus, -2.0);
+    transfer_fluid(from, to, b.points(), modulus, -2.0);
     REQUIRE(to.vapour[0] == 0);
     REQUIRE_THAT(to.pressure[0], WithinRel(96.0 / 2 - 0.01 * modulus / volume(from), 1e-12));
 }
@@ -112,7 +112,7 @@ TEST_CASE("two triangulations of one cloud: areas, content, bits of what stays, 
         for (double const r : b.r) weights.push_back(r * (0.8 + 0.4 * uniform(engine)));
         auto from = made_with(b, b.r), to = made_with(b, weights);
         for (std::size_t p = 0; p < from.pores(); ++p) from.pressure[p] = 10 + uniform(engine);
-        auto const report = carry_fluid(from, to, b.points(), modulus, -infinity);
+        auto const report = transfer_fluid(from, to, b.points(), modulus, -infinity);
         REQUIRE(report.kept > 20);
         REQUIRE(report.changed > 5);
         REQUIRE(report.regions > 1);
@@ -144,10 +144,10 @@ TEST_CASE("two triangulations of one cloud: areas, content, bits of what stays, 
         REQUIRE(same == report.kept);
 
         for (auto& p : from.pressure) p = 7.5;
-        carry_fluid(from, to, b.points(), modulus, -infinity);
+        transfer_fluid(from, to, b.points(), modulus, -infinity);
         for (double const p : to.pressure) REQUIRE_THAT(p, WithinRel(7.5, 1e-12));
         auto again = from;
-        auto const none = carry_fluid(from, again, b.points(), modulus, -infinity);
+        auto const none = transfer_fluid(from, again, b.points(), modulus, -infinity);
         REQUIRE(none.changed == 0);
         REQUIRE(again.pressure == from.pressure);
         REQUIRE(none.residual == 0);
@@ -161,7 +161,7 @@ TEST_CASE("at the boundary: what goes away gives its content to its neighbours, 
     auto big = made(b, {{0, 1, 2}, {0, 2, 3}, {1, 4, 2}}), small = made(b, {{0, 1, 2}, {0, 2, 3}});
     for (std::size_t p = 0; p < 3; ++p) big.pressure[p] = 4;
     auto lessened = small;
-    auto const less = carry_fluid(big, lessened, b.points(), modulus, -infinity);
+    auto const less = transfer_fluid(big, lessened, b.points(), modulus, -infinity);
     REQUIRE(less.lost == 0);
     REQUIRE_THAT(content(lessened), WithinRel(content(big), 1e-14));
     // Pore 0 of the two touches the one that went.
@@ -174,19 +174,19 @@ TEST_CASE("at the boundary: what goes away gives its content to its neighbours, 
     auto grown = big;
     for (auto& p : grown.pressure) p = 99;
     small.pressure[0] = small.pressure[1] = 4;
-    auto const more = carry_fluid(small, grown, b.points(), modulus, -infinity);
+    auto const more = transfer_fluid(small, grown, b.points(), modulus, -infinity);
     REQUIRE(grown.pressure[went] == 0);
     REQUIRE_THAT(content(grown), WithinRel(content(small), 1e-14));
     REQUIRE_THAT(more.volume, WithinRel(big.volume[went], 1e-12));
 
     auto away = made(b, {{1, 4, 2}});
     for (auto& p : big.pressure) p = 4;
-    auto const apart = carry_fluid(made(b, {{0, 2, 3}}), away, b.points(), modulus, -infinity);
+    auto const apart = transfer_fluid(made(b, {{0, 2, 3}}), away, b.points(), modulus, -infinity);
     REQUIRE(apart.lost == 0);
     auto lone = made(b, {{1, 4, 2}});
     lone.pressure[0] = 3;
     auto elsewhere = made(b, {{0, 2, 3}});
-    auto const lost = carry_fluid(lone, elsewhere, b.points(), modulus, -infinity);
+    auto const lost = transfer_fluid(lone, elsewhere, b.points(), modulus, -infinity);
     REQUIRE_THAT(lost.lost, WithinRel(content(lone), 1e-14));
     REQUIRE(elsewhere.pressure[0] == 0);
 }
@@ -196,7 +196,7 @@ TEST_CASE("a triangle that has turned over gives its fluid to the pores that tak
     bodies::body b{{{0, 0}, {2, 0}, {1, -2}, {1, -0.2}}, {0.2, 0.2, 0.2, 0.2}};
     network from = made(b, {{0, 2, 1}}), to = made(b, {{0, 2, 3}, {2, 1, 3}});
     from.pressure[0] = 6;
-    auto const report = carry_fluid(from, to, b.points(), modulus, -infinity);
+    auto const report = transfer_fluid(from, to, b.points(), modulus, -infinity);
     REQUIRE_THAT(content(to), WithinRel(content(from), 1e-13));
     for (double const p : to.pressure) REQUIRE((std::isfinite(p) && p > 6));
     REQUIRE(report.changed == 2);
@@ -208,7 +208,7 @@ TEST_CASE("flows and sources go over to the new network") {
     from.flow[0] = 0.25;
     from.sources.push_back({"top", flow_source_kind::rate, 3.0, {1}, {1.0}, 0.5, 0.1});
     to.sources.push_back({"top", flow_source_kind::rate, 1.0, {0}, {1.0}, 0.0, 0.0});
-    carry_fluid(from, to, b.points(), modulus, -infinity);
+    transfer_fluid(from, to, b.points(), modulus, -infinity);
     REQUIRE(to.flow[0] == 0.25);
     REQUIRE(to.sources[0].value == 3.0);
     REQUIRE(to.sources[0].volume == 0.5);
@@ -227,7 +227,7 @@ TEST_CASE("solvers go on from a carried network") {
                           make_pore_network(regular_triangulation(b.points(), weights.data()), b.points(), b.r.data()),
                           1.0, b.points(), b.r.data())
                          .network();
-        carry_fluid(flow.network(), fresh, b.points(), modulus, -infinity);
+        transfer_fluid(flow.network(), fresh, b.points(), modulus, -infinity);
         double const before = content(fresh);
         flow.restore(fresh, flow.ledger());
         double const dt = 1e-5;

@@ -141,7 +141,7 @@ struct wind {
         template <class Lookup>
         void map_throats(Lookup const&) {}
         void refresh_apertures(body_column<Real> const&, Real const*) {}
-        void skip_idle_throats() {}
+        void deactivate_slow_throats() {}
         template <bool WithLedger>
         void step(body_column<Real> const&, Real const*, Real, int, record_column<Real>* out) {
             constexpr std::size_t records = Dim == 2 ? 1 : 2;

@@ -103,7 +103,7 @@ lacuna::simulation<Model> lively(int threads = 1) {
     servo.stress = 0.5;
     servo.area = 12;
     servo.max_speed = 0.2;
-    run.hold_wall(1, servo);
+    run.servo_wall(1, servo);
     for (std::size_t k = 0; k < run.size(); ++k) {
         lacuna::vec<double, dim> v{};
         for (int axis = 0; axis < dim; ++axis) v[axis] = 0.4 * noise(k, 6 + axis);

@@ -57,7 +57,7 @@ outcome play(lacuna::packing<typename Model::real, 2> const& packing, int thread
         run.step();
         o.events.insert(o.events.end(), run.events().begin(), run.events().end());
     }
-    o.streams = run.pairs().streams();
+    o.streams = run.pairs().forces_are_transient();
     o.spans = run.pairs().spans().count();
     for (std::size_t k = 0; k < run.size(); ++k) {
         o.position.push_back(run.position(k));

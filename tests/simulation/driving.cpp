@@ -58,7 +58,7 @@ TEST_CASE("a prescribed velocity rises linearly and does its work", "[loads]") {
     p.time_step = 1e-3;
     lacuna::simulation<plane> sim(chain<2>(2), p);
     sim.fix(0);
-    sim.move(1, {0.02, 0}, 0.5);
+    sim.prescribe_velocity(1, {0.02, 0}, 0.5);
     for (int step = 0; step < 250; ++step) sim.step_with_energy();
     // v t^2 / (2 ramp) at half the ramp
     REQUIRE_THAT(sim.position(1)[0] - 1, WithinRel(0.02 * 0.25 * 0.25 / (2 * 0.5), 1e-9));
@@ -118,7 +118,7 @@ TEST_CASE("the step follows the critical one when bonds break", "[limits]") {
     p.interactions.contacts = false;
     lacuna::simulation<plane> sim(chain<2>(4), p);
     sim.fix(0);
-    sim.move(3, {1e-2, 0});
+    sim.prescribe_velocity(3, {1e-2, 0});
     double const first = sim.time_step();
     double time = 0;
     while (sim.events().empty()) {
@@ -166,7 +166,7 @@ TEST_CASE("a rigid plate moves its particles as one, under the sum of their forc
     sim.fix(2);
     REQUIRE_THAT(sim.mass(3), WithinRel(4.0, 1e-12));
     std::size_t const both[] = {3, 1};
-    sim.join(both, 0);
+    sim.attach_to_rigid_plate(both, 0);
     sim.apply(1, {1e-3, 2e-4});
     double worst = 0;
     for (int step = 1; step <= 4000; ++step) {
@@ -185,17 +185,17 @@ TEST_CASE("a rigid plate moves its particles as one, under the sum of their forc
     lacuna::simulation<plane> held(discs, p);
     held.fix(0);
     held.fix(3);
-    held.join(both, 0);
+    held.attach_to_rigid_plate(both, 0);
     held.apply(1, {1e-3, 0});
     held.run(100);
     REQUIRE(held.position(1)[0] == 1);
 
     std::size_t const again[] = {1}, twice[] = {0, 0};
-    REQUIRE_THROWS_WITH(sim.join(again, 0),
+    REQUIRE_THROWS_WITH(sim.attach_to_rigid_plate(again, 0),
                         "particle 1 of a rigid plate = given twice: must be in one plate along an axis, once");
-    REQUIRE_THROWS_AS(sim.join(twice, 1), std::invalid_argument);
-    REQUIRE_THROWS_AS(sim.join({}, 1), std::invalid_argument);
-    REQUIRE_THROWS_AS(sim.join(both, 2), std::invalid_argument);
+    REQUIRE_THROWS_AS(sim.attach_to_rigid_plate(twice, 1), std::invalid_argument);
+    REQUIRE_THROWS_AS(sim.attach_to_rigid_plate({}, 1), std::invalid_argument);
+    REQUIRE_THROWS_AS(sim.attach_to_rigid_plate(both, 2), std::invalid_argument);
     sim.set_velocity(1, {0, 1});
-    REQUIRE_THROWS_WITH(sim.join(both, 1), contains_text("velocity"));
+    REQUIRE_THROWS_WITH(sim.attach_to_rigid_plate(both, 1), contains_text("velocity"));
 }

@@ -291,7 +291,7 @@ TEST_CASE("a fast particle: what made it fast", "[guards]") {
     given.set_velocity(1, {0, 0.6});
     CHECK_THAT(said(given, 1), contains_text("likely cause: the velocity that it was given"));
     lacuna::simulation<plane> moved(chain<2>(3, false), p);
-    moved.move(1, {0, 0.6}, 5);
+    moved.prescribe_velocity(1, {0, 0.6}, 5);
     CHECK_THAT(said(moved, 100), contains_text("likely cause: the velocity that is prescribed to it"));
     lacuna::simulation<plane> loaded(chain<2>(3, false), p);
     loaded.apply(1, {0, 6});

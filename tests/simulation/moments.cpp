@@ -149,14 +149,14 @@ TEST_CASE("the stiffness against bending is that of 4e", "[moment]") {
     // kbar_n of 1 N/m^3: k_n = kbar_n A
     double const area = 2 * 0.5 * 1.0;
     auto const p = lacuna::parallel_bond::combine({area, area}, {area, area}, 1.0);
-    REQUIRE_THAT(lacuna::parallel_bond::against_turning<2>(p, 0.5, 0.7).bending,
+    REQUIRE_THAT(lacuna::parallel_bond::rotational_stiffness<2>(p, 0.5, 0.7).bending,
                  WithinRel(reference("4e.parallel_bond_2D", "k_theta/(kn_bar_per_area)"), 1e-12));
     REQUIRE_THAT(p.normal_stiffness, WithinRel(area * reference("4e.parallel_bond_2D", "kn/(kn_bar)"), 1e-12));
     // In space pi R^4 / 4 and pi R^4 / 2, with k = pi R^2.
     double const round = pi * 0.25;
     auto const q = lacuna::parallel_bond::combine({round, round}, {round, round}, 1.0);
-    REQUIRE_THAT(lacuna::parallel_bond::against_turning<3>(q, 0.5, 0.7).bending, WithinRel(pi * 0.0625 / 4, 1e-12));
-    REQUIRE_THAT(lacuna::parallel_bond::against_turning<3>(q, 0.5, 0.7).twisting, WithinRel(pi * 0.0625 / 2, 1e-12));
+    REQUIRE_THAT(lacuna::parallel_bond::rotational_stiffness<3>(q, 0.5, 0.7).bending, WithinRel(pi * 0.0625 / 4, 1e-12));
+    REQUIRE_THAT(lacuna::parallel_bond::rotational_stiffness<3>(q, 0.5, 0.7).twisting, WithinRel(pi * 0.0625 / 2, 1e-12));
 }
 
 TEST_CASE("a parallel bond breaks where the stress at its rim says", "[moment]") {
@@ -165,7 +165,7 @@ TEST_CASE("a parallel bond breaks where the stress at its rim says", "[moment]")
     auto const p = law::combine({1e3, 1e3, strength, strength}, {1e3, 1e3, strength, strength}, thickness);
     lacuna::pair_motion<double, 2> const still{1, radius, radius, {}, 0};
     double const area = 2 * radius * thickness, inertia = 2.0 / 3 * radius * radius * radius * thickness;
-    double const k = law::against_turning<2>(p, radius, radius).bending;
+    double const k = law::rotational_stiffness<2>(p, radius, radius).bending;
     for (double const axial : {-4.0, 0.0, 2.0}) {
         // F/A + |M| R/I reaches the strength at this moment.
         double const moment = (strength - axial / area) * inertia / radius;
@@ -183,7 +183,7 @@ TEST_CASE("a parallel bond breaks where the stress at its rim says", "[moment]")
     lacuna::pair_motion<double, 3> ball{1, radius, radius, {}, 0};
     double const twist_limit = strength * pi * radius * radius * radius / 2;
     for (double const over : {0.999, 1.001}) {
-        auto const r = law::evaluate(q, ball, {{}, over * twist_limit / law::against_turning<3>(q, radius, radius).twisting},
+        auto const r = law::evaluate(q, ball, {{}, over * twist_limit / law::rotational_stiffness<3>(q, radius, radius).twisting},
                                      law::initial<double, 3>(1, 1));
         REQUIRE(r.broken == (over > 1));
         REQUIRE_FALSE(r.broken_in_tension);
@@ -258,7 +258,7 @@ TEST_CASE("single bonds have values of their own", "[bond values]") {
                           .shear_force = {}};
             lacuna::simulation<chosen> sim(chain<2>(4), p);
             sim.fix(0);
-            sim.move(3, {1e-4, 0});
+            sim.prescribe_velocity(3, {1e-4, 0});
             while (sim.events().empty() && sim.steps() < 10000000) sim.step();
             REQUIRE(sim.events().size() == 1);
             auto const& e = sim.events().front();
@@ -291,9 +291,9 @@ TEST_CASE("the paper's bond with a moment", "[moment]") {
     lacuna::pair_motion<double, 2> still{1, radius, radius, {}, 0};
     double const area = 2 * radius * thickness;
     // k_n R^2 / 3, a quarter of it
-    double const k = law::against_turning<2>(p, radius, radius).bending;
+    double const k = law::rotational_stiffness<2>(p, radius, radius).bending;
     REQUIRE_THAT(k, WithinRel(share * 1e3 * 0.25 / 3, 1e-12));
-    auto const q = law::against_turning<3>(p, radius, 0.7);
+    auto const q = law::rotational_stiffness<3>(p, radius, 0.7);
     REQUIRE_THAT(q.bending, WithinRel(share * 1e3 * 0.25 / 4, 1e-12));
     REQUIRE_THAT(q.twisting, WithinRel(share * 800 * 0.25 / 2, 1e-12));
     for (double const axial : {-4.0, 0.0, 2.0}) {
@@ -322,7 +322,7 @@ TEST_CASE("the paper's bond with a moment", "[moment]") {
     }
     // A stiffness and a strength of its own.
     auto const own = law::with_values<2>(p, {.normal_stiffness = 500, .bending_stiffness = 7, .tensile_force = 1}, 0.5, 0.7);
-    REQUIRE_THAT(law::against_turning<2>(own, 0.5, 0.7).bending, WithinRel(7.0, 1e-12));
+    REQUIRE_THAT(law::rotational_stiffness<2>(own, 0.5, 0.7).bending, WithinRel(7.0, 1e-12));
     REQUIRE(own.spring.normal_stiffness == 500);
     REQUIRE_THAT(own.spring.tensile_strength * area, WithinRel(1.0, 1e-12));
     REQUIRE_THROWS_WITH((law::material{1, 1, 1, 1, -1}.validate("m")), "m.bending_ratio = -1: must be >= 0 and finite");

@@ -156,7 +156,7 @@ TEST_CASE("motion that is lost to rounding is told", "[places]") {
             if (how == 0)
                 sim.set_velocity(k, {0, 1e-3});
             else
-                sim.move(k, {0, 1e-3}, how == 1 ? 0.0 : 1e-5);
+                sim.prescribe_velocity(k, {0, 1e-3}, how == 1 ? 0.0 : 1e-5);
         CHECK_THAT(thrown_by([&] { sim.run(1000); }),
                    contains_text("lost to rounding") && contains_text("(5e+06") && contains_text("(0, 0.001") &&
                        contains_text("9.31322574") && contains_text("shift the body to the origin") && contains_text("double precision"));

@@ -328,11 +328,11 @@ struct calls {
         w[0] = spin;
         s.set_spin(5, w);
         v[0] = pull;
-        s.move(2, v, 5e-6);
+        s.prescribe_velocity(2, v, 5e-6);
     }
     void plates(simulation& s) const {
         std::vector<std::size_t> const joined{4, 5};
-        s.join(joined, int(plate_axis));
+        s.attach_to_rigid_plate(joined, int(plate_axis));
     }
     void walls(simulation& s) const {
         lacuna::vec<double, dim> v{};
@@ -342,7 +342,7 @@ struct calls {
         servo.stress = stress;
         servo.area = 2;
         servo.max_speed = 0.1;
-        s.hold_wall(1, servo);
+        s.servo_wall(1, servo);
     }
     void fluid([[maybe_unused]] simulation& s) const {
         if constexpr (lacuna::has_fluid<Model>) s.flow().set_pressure(0, typename Model::real(pressure));
@@ -475,7 +475,7 @@ TEST_CASE("a particle that is let go keeps its velocity and is free", "[driving]
     lacuna::packing<double, 2> one;
     one.add({0, 0}, 0.5);
     lacuna::simulation<plane> run(one, p);
-    run.move(0, {1, 0}, 1.0);
+    run.prescribe_velocity(0, {1, 0}, 1.0);
     run.run(50);
     double const v = run.velocity(0)[0];
     REQUIRE_THAT(v, WithinAbs(0.495, 1e-12)); // mean of the last step of a ramp of 1 m/s in 1 s

@@ -81,9 +81,9 @@ simulation<Model> wet_body(double duration) {
 }
 
 template <class Simulation>
-std::size_t idle_throats(Simulation const& sim) {
+std::size_t inactive_throats(Simulation const& sim) {
     auto const& net = sim.flow().network();
-    return std::size_t(std::count(net.idle.begin(), net.idle.begin() + std::ptrdiff_t(net.open_throats()), 1));
+    return std::size_t(std::count(net.inactive.begin(), net.inactive.begin() + std::ptrdiff_t(net.open_throats()), 1));
 }
 
 } // namespace
@@ -92,7 +92,7 @@ TEMPLATE_TEST_CASE("a wet body has the same bits however its run is cut into cal
                    sheet_explicit, sheet_implicit, block_explicit, block_implicit) {
     // A duration by which some throats matter and some do not.
     auto fresh = wet_body<TestType>(std::numeric_limits<double>::infinity());
-    REQUIRE(idle_throats(fresh) == 0);
+    REQUIRE(inactive_throats(fresh) == 0);
     auto const& net = fresh.flow().network();
     std::vector<double> limits;
     for (std::size_t t = 0; t < net.open_throats(); ++t)
@@ -103,9 +103,9 @@ TEMPLATE_TEST_CASE("a wet body has the same bits however its run is cut into cal
 
     constexpr long long steps = 200;
     auto whole = wet_body<TestType>(duration);
-    REQUIRE(idle_throats(whole) == std::size_t(std::count_if(limits.begin(), limits.end(), [&](double l) { return l > middle; })));
+    REQUIRE(inactive_throats(whole) == std::size_t(std::count_if(limits.begin(), limits.end(), [&](double l) { return l > middle; })));
     whole.run(steps);
-    std::size_t const idle = idle_throats(whole);
+    std::size_t const idle = inactive_throats(whole);
     REQUIRE(idle > 0);
     REQUIRE(idle < limits.size());
 
@@ -130,7 +130,7 @@ TEMPLATE_TEST_CASE("a wet body has the same bits however its run is cut into cal
     auto all = wet_body<TestType>(std::numeric_limits<double>::infinity());
     fresh.run(steps);
     while (all.steps() < steps) all.run(1);
-    REQUIRE(idle_throats(all) == 0);
+    REQUIRE(inactive_throats(all) == 0);
     REQUIRE(state_hash(all) == state_hash(fresh));
 }
 

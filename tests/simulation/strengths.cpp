@@ -45,10 +45,10 @@ TEST_CASE("a bond breaks on Mohr-Coulomb's line, and the event says how", "[enve
         lacuna::simulation<rock> sim(chain<2>(2), rock_parameters());
         sim.fix(0);
         double const speed = 1e-4, way = normal / 1e5;
-        sim.move(1, {normal < 0 ? -speed : speed, 0});
+        sim.prescribe_velocity(1, {normal < 0 ? -speed : speed, 0});
         sim.fix(1);
         while (std::fabs(sim.position(1)[0] - 1) < std::fabs(way)) sim.step();
-        sim.move(1, {0, speed});
+        sim.prescribe_velocity(1, {0, speed});
         sim.fix(1);
         auto const event = first_break(sim);
         INFO("F_n = " << normal);
@@ -60,7 +60,7 @@ TEST_CASE("a bond breaks on Mohr-Coulomb's line, and the event says how", "[enve
     }
     lacuna::simulation<rock> pulled(chain<2>(2), rock_parameters());
     pulled.fix(0);
-    pulled.move(1, {1e-4, 0});
+    pulled.prescribe_velocity(1, {1e-4, 0});
     auto const event = first_break(pulled);
     CHECK(event.mode == lacuna::bond_state::broken_in_tension);
     CHECK_THAT(event.normal_force, WithinRel(4.0, 1e-3));
@@ -70,7 +70,7 @@ TEST_CASE("Mohr-Coulomb's bond is elastic under any compression, the paper's is 
     auto const press = [](auto model, auto const& p) {
         lacuna::simulation<decltype(model)> sim(chain<2>(2), p);
         sim.fix(0);
-        sim.move(1, {-0.01, 0});
+        sim.prescribe_velocity(1, {-0.01, 0});
         while (sim.position(1)[0] > 1 - 1e-3) sim.step();
         double const deepest = sim.position(1)[0];
         sim.step(); // the force of that place
@@ -98,7 +98,7 @@ TEST_CASE("of scattered strengths the weakest breaks first, whatever the order o
         p.bonds = scatter.draw(discs.bonds);
         lacuna::simulation<rock> sim(discs, p);
         sim.fix(0);
-        sim.move(11, {1e-4, 0});
+        sim.prescribe_velocity(11, {1e-4, 0});
         events[std::size_t(round)] = first_break(sim);
     }
     int const first = int(weakest - strength.begin());

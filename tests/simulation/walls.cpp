@@ -121,7 +121,7 @@ TEST_CASE("a servo makes up a fixed share of the missing force in each step", "[
     above_a_wall<plane> s(-1e-4);
     lacuna::simulation<plane> sim(s.body, s.p);
     sim.fix(0);
-    sim.hold_wall(0, {5.0, 2.0, 9.0, 0.25, {}}); // 10 N; there is 1 N to begin with
+    sim.servo_wall(0, {5.0, 2.0, 9.0, 0.25, {}}); // 10 N; there is 1 N to begin with
     double missing = 9;
     for (int k = 0; k < 40; ++k) {
         sim.step();
@@ -151,7 +151,7 @@ TEST_CASE("a servo without a contact comes at its greatest speed, and stops at t
     servo.stress = 8;
     servo.area = 0.5;
     servo.max_speed = 0.05;
-    sim.hold_wall(1, servo);
+    sim.servo_wall(1, servo);
     while (sim.time() < 2) sim.step();
     CHECK_THAT(sim.walls().point(1)[1], WithinAbs(2.9 - 0.05 * sim.time(), 1e-9));
     while (sim.time() < 20) sim.step();
@@ -177,7 +177,7 @@ TEST_CASE("the area of a servo is that between the walls beside it", "[walls][se
     one.add({0, 0}, 0.5);
     lacuna::simulation<plane> sim(one, p);
     sim.fix(0);
-    sim.hold_wall(3, {10, 0, 1, 0.5, {{{0, 1}}}});
+    sim.servo_wall(3, {10, 0, 1, 0.5, {{{0, 1}}}});
     sim.move_wall(1, {0.2, 0}); // away: the area grows with it
     for (int k = 0; k < 5000; ++k) sim.step();
     CHECK_THAT(sim.walls().force(3)[1], WithinRel(10 * 0.2 * (1 + 0.2 * 0.5), 1e-4));
@@ -189,13 +189,13 @@ TEST_CASE("bad walls, motions and servos are refused by name", "[walls][refusal]
     CHECK_THROWS_WITH(sim.move_wall(1, {0, 0}), contains_text("wall = 1: must be below the number of walls, 1"));
     CHECK_THROWS_WITH(sim.move_wall(0, {0, never}), contains_text("wall 0.velocity = inf"));
     CHECK_THROWS_WITH(sim.move_wall(0, {0, 0}, -1), contains_text("wall 0.ramp_time = -1"));
-    CHECK_THROWS_WITH(sim.hold_wall(2, {1, 1, 1, 0.5, {}}), contains_text("wall = 2"));
-    CHECK_THROWS_WITH(sim.hold_wall(0, {-1, 1, 1, 0.5, {}}), contains_text("wall 0.servo.stress = -1"));
-    CHECK_THROWS_WITH(sim.hold_wall(0, {1, -1, 1, 0.5, {}}), contains_text("wall 0.servo.area = -1"));
-    CHECK_THROWS_WITH(sim.hold_wall(0, {1, 1, 0, 0.5, {}}), contains_text("wall 0.servo.max_speed = 0"));
-    CHECK_THROWS_WITH(sim.hold_wall(0, {1, 1, 1, 1.5, {}}), contains_text("wall 0.servo.relaxation = 1.5: must be > 0 and <= 1"));
-    CHECK_THROWS_WITH(sim.hold_wall(0, {1, 0, 1, 0.5, {}}), contains_text("wall 0.servo.between = 0: must be two different walls"));
-    CHECK_THROWS_WITH(sim.hold_wall(0, {1, 0, 1, 0.5, {{{0, 3}}}}), contains_text("wall 0.servo.between = 3"));
+    CHECK_THROWS_WITH(sim.servo_wall(2, {1, 1, 1, 0.5, {}}), contains_text("wall = 2"));
+    CHECK_THROWS_WITH(sim.servo_wall(0, {-1, 1, 1, 0.5, {}}), contains_text("wall 0.servo.stress = -1"));
+    CHECK_THROWS_WITH(sim.servo_wall(0, {1, -1, 1, 0.5, {}}), contains_text("wall 0.servo.area = -1"));
+    CHECK_THROWS_WITH(sim.servo_wall(0, {1, 1, 0, 0.5, {}}), contains_text("wall 0.servo.max_speed = 0"));
+    CHECK_THROWS_WITH(sim.servo_wall(0, {1, 1, 1, 1.5, {}}), contains_text("wall 0.servo.relaxation = 1.5: must be > 0 and <= 1"));
+    CHECK_THROWS_WITH(sim.servo_wall(0, {1, 0, 1, 0.5, {}}), contains_text("wall 0.servo.between = 0: must be two different walls"));
+    CHECK_THROWS_WITH(sim.servo_wall(0, {1, 0, 1, 0.5, {{{0, 3}}}}), contains_text("wall 0.servo.between = 3"));
     sim.move_wall(0, along_y(-1e4));
     CHECK_THROWS_WITH(sim.step(), contains_text("a wall moved 4 of the smallest radius in one step (limit 0.1)"));
 }

@@ -6,7 +6,7 @@
 #include <type_traits>
 #include <vector>
 
-#include <lacuna/core/fetch.hpp>
+#include <lacuna/core/prefetch.hpp>
 #include <lacuna/core/records.hpp>
 
 /// \file
@@ -64,8 +64,8 @@ public:
         return r;
     }
     /// Asks the memory for a pack; one beyond the end does no harm.
-    void fetch(std::size_t p) const noexcept {
-        lacuna::fetch(data_.data() + p * fields * W, fields * sizeof(lanes));
+    void prefetch(std::size_t p) const noexcept {
+        lacuna::prefetch(data_.data() + p * fields * W, fields * sizeof(lanes));
     }
     void store(std::size_t p, Aggregate<lanes> const& value) noexcept {
         Real* to = data_.data() + p * fields * W;

@@ -102,7 +102,7 @@ V join(H low, H high) noexcept {
 
 /// Turns W records that come from `at(0)` to `at(W - 1)`: result[l][k] is number l of at(k).
 template <class T, int W, class At>
-std::array<pack<T, W>, 4> turn_records(At const& at) noexcept {
+std::array<pack<T, W>, 4> transpose_load(At const& at) noexcept {
     using P = pack<T, W>;
     if constexpr (sizeof(T) == 8 && W == 8) {
         using full = typename P::native;
@@ -167,7 +167,7 @@ std::array<pack<T, W>, 4> turn_records(At const& at) noexcept {
 /// Turns W entries of two records: result[l][k] is number l of entry k.
 /// \param at callable `at.template operator()<N>(k, first)`: N numbers of entry k, from number `first` on
 template <class T, int W, class At>
-std::array<pack<T, W>, 8> turn_bodies(At const& at) noexcept {
+std::array<pack<T, W>, 8> transpose_load2(At const& at) noexcept {
     using P = pack<T, W>;
     using full = typename P::native;
     if constexpr (sizeof(T) == 8 && W == 8) {
@@ -215,15 +215,15 @@ std::array<pack<T, W>, 8> turn_bodies(At const& at) noexcept {
         return {first(front[0], back[0]),  first(front[1], back[1]),  first(front[2], back[2]),  first(front[3], back[3]),
                 second(front[0], back[0]), second(front[1], back[1]), second(front[2], back[2]), second(front[3], back[3])};
     } else {
-        auto place = turn_records<T, W>([&](int k) { return at.template operator()<4>(k, 0); });
-        auto motion = turn_records<T, W>([&](int k) { return at.template operator()<4>(k, 4); });
+        auto place = transpose_load<T, W>([&](int k) { return at.template operator()<4>(k, 0); });
+        auto motion = transpose_load<T, W>([&](int k) { return at.template operator()<4>(k, 4); });
         return {place[0], place[1], place[2], place[3], motion[0], motion[1], motion[2], motion[3]};
     }
 }
 
 /// Writes W records in a row: number l of record k is value[l][k].
 template <class T, int W>
-void store_turned(T* to, std::array<pack<T, W>, 4> const& value) noexcept {
+void transpose_store(T* to, std::array<pack<T, W>, 4> const& value) noexcept {
     if constexpr (sizeof(T) == 8 && W == 8) {
         using full = typename pack<T, W>::native;
         full p = value[0].v, q = value[1].v, r = value[2].v, s = value[3].v;

@@ -32,7 +32,7 @@ template <class Table>
 void number_bonds(std::span<bond_record> records, Table const& table, std::size_t particles) {
     for (auto& record : records) record.slot = -1;
     for (std::size_t s = 0; s < table.slots(); ++s) {
-        if (table.is_filler(s, particles)) continue;
+        if (table.is_padding(s, particles)) continue;
         auto& record = records[std::size_t(table.label(s))];
         if (record.state == bond_state::intact) record.slot = std::int32_t(s);
     }

@@ -18,7 +18,7 @@ template <class Table, class Real, int Dim>
 void add_moments(particle_store<Real, Dim> const& store, Table const& pairs, std::vector<Real> const& moments,
                  record_column<Real>& out) noexcept {
     for (std::size_t s = 0; s < pairs.slots(); ++s) {
-        if (pairs.is_filler(s, store.size())) continue;
+        if (pairs.is_padding(s, store.size())) continue;
         auto const i = std::size_t(pairs.i(s)), j = std::size_t(pairs.j(s));
         for (int axis = 0; axis < rotation_dim<Dim>; ++axis) {
             Real const moment = moments[s * rotation_dim<Dim> + std::size_t(axis)];
@@ -33,10 +33,10 @@ template <class Law, class Table, class Real, int Dim, class Visit>
 void visit_moment_stiffness(particle_store<Real, Dim> const& store, Table const& pairs,
                             parameter_table<Law, Real> const& parameters, Visit const& visit) {
     for (std::size_t s = 0; s < pairs.slots(); ++s) {
-        if (pairs.is_filler(s, store.size())) continue;
+        if (pairs.is_padding(s, store.size())) continue;
         auto const i = std::size_t(pairs.i(s)), j = std::size_t(pairs.j(s));
         auto const arm = convert<double>(store.nearest(store.position(j) - store.position(i)));
-        auto const k = Law::template against_turning<Dim>(parameters.row[std::size_t(pairs.parameter()[s])],
+        auto const k = Law::template rotational_stiffness<Dim>(parameters.row[std::size_t(pairs.parameter()[s])],
                                                           store.radius(i), store.radius(j), Real(norm(arm)));
         visit(i, j, arm / norm(arm), moment_stiffness<double>{double(k.bending), double(k.twisting)});
     }
@@ -50,7 +50,7 @@ void visit_moment_stiffness(particle_store<Real, Dim> const& store, Table const&
                             Visit const& visit) {
     visit_contacts<Law>(store, contacts, assumed, [&](std::size_t s, std::size_t i, std::size_t j, auto const& arm,
                                                       double distance, double) {
-        auto const k = Law::template against_turning<Dim>(parameters.row[std::size_t(contacts.parameter()[s])],
+        auto const k = Law::template rotational_stiffness<Dim>(parameters.row[std::size_t(contacts.parameter()[s])],
                                                           store.radius(i), store.radius(j), Real(distance));
         visit(i, j, arm / distance, moment_stiffness<double>{double(k.bending), double(k.twisting)});
     });

@@ -13,7 +13,7 @@ struct interaction_parameters {
     /// anew.
     double skin = 0.1;
     /// Pairs, and particles at walls, whose gap or overlap in the initial packing is below this fraction of the (smaller)
-    /// radius start as touching at zero force, at the distance they have (MODEL.md section 3); 0: every overlap is a force.
+    /// radius start as touching at zero force, at the distance they have; 0: every overlap is a force.
     double initial_contact_tolerance = 0;
 
     /// False: particles pass through each other, bonds apart. What no_contact settles for a model, for one run.

@@ -14,7 +14,7 @@
 #include <lacuna/interactions/bond_list.hpp>
 #include <lacuna/interactions/bond_moments.hpp>
 #include <lacuna/interactions/storage/contact_list.hpp>
-#include <lacuna/interactions/storage/force_store.hpp>
+#include <lacuna/interactions/storage/force_buffer.hpp>
 #include <lacuna/interactions/law_stiffness.hpp>
 #include <lacuna/interactions/interaction_parameters.hpp>
 #include <lacuna/interactions/pair_loop.hpp>
@@ -91,22 +91,22 @@ public:
 
     int chunks() const noexcept { return forces_.chunks(); }
 
-    /// As force_store::set_mode().
-    void set_mode(store_type const& store, bool streaming, int threads) {
-        if (!forces_.set_mode(streaming, threads)) return;
+    /// As force_buffer::set_force_retention().
+    void set_force_retention(store_type const& store, bool transient, int threads) {
+        if (!forces_.set_force_retention(transient, threads)) return;
         neighbors_.set_threads(threads);
         forces_.build(store.size(), bonds_, contacts_);
     }
-    /// As force_store::keep_normals(); for find_normal_force().
+    /// As force_buffer::keep_normals(); for find_normal_force().
     void keep_normal_forces() { forces_.keep_normals(bonds_, contacts_); }
     /// Whether forces are kept no longer than it takes to sum them up. A chunk's sums can be used while its forces are
-    /// fresh, by with_fresh_forces_on(), or are kept by keep_sums(), after prepare_sums(), for with_forces_on().
-    bool streams() const noexcept { return forces_.streams(); }
-    void prepare_sums(store_type const& store) { forces_.prepare_sums(store.size()); }
-    void keep_sums(store_type const& store, int chunk) { forces_.keep_sums(chunk, store.size()); }
+    /// fresh, by for_fresh_force_sums(), or are kept by keep_force_sums(), after prepare_force_sums(), for for_force_sums().
+    bool forces_are_transient() const noexcept { return forces_.forces_are_transient(); }
+    void prepare_force_sums(store_type const& store) { forces_.prepare_force_sums(store.size()); }
+    void keep_force_sums(store_type const& store, int chunk) { forces_.keep_force_sums(chunk, store.size()); }
     template <class Use>
-    void with_fresh_forces_on(int chunk, Use const& use) const {
-        forces_.with_fresh_sums(chunk, use);
+    void for_fresh_force_sums(int chunk, Use const& use) const {
+        forces_.for_fresh_force_sums(chunk, use);
     }
     chunk_spans const& spans() const noexcept { return forces_.spans(); }
 
@@ -115,7 +115,7 @@ public:
     void evaluate(store_type const& store, int chunk, Real time_step) {
         auto& energy = energy_[std::size_t(chunk)];
         energy = {};
-        auto ahead = forces_.read_ahead_of(store, chunk, bonds_, contacts_);
+        auto ahead = forces_.plan_prefetch(store, chunk, bonds_, contacts_);
         if constexpr (!is_absent<BondLaw>)
             evaluate_chunk<pair_kind::bond, WithEnergy, BondLaw, Damping, Domain>(
                 bonds_, chunk, bond_parameters_, damping_, store, time_step, forces_.template begin<0>(bonds_, chunk),
@@ -135,10 +135,10 @@ public:
                 },
                 deepest_, watched_);
     }
-    /// As force_store::with_sums().
+    /// As force_buffer::for_force_sums().
     template <class Use>
-    void with_forces_on(int chunk, Use const& use) const {
-        forces_.with_sums(chunk, use);
+    void for_force_sums(int chunk, Use const& use) const {
+        forces_.for_force_sums(chunk, use);
     }
 
     /// Adds the moments that pairs have exerted in the last evaluation; see lacuna::add_moments().
@@ -309,7 +309,7 @@ private:
             if (acts_apart<ContactLaw>(store, contact_parameters_.row[std::size_t(e.parameter)], e)) held_.push_back({e.i, e.j});
         };
         for (std::size_t s = 0; s < contacts_.slots(); ++s)
-            if (!contacts_.is_filler(s, store.size())) look(contacts_.get(s));
+            if (!contacts_.is_padding(s, store.size())) look(contacts_.get(s));
         for (contact_entry const& e : broken_) look(e);
         std::sort(held_.begin(), held_.end(), pair_before<neighbor_pair>);
         neighbors_.add(held_);
@@ -359,7 +359,7 @@ private:
 
     [[gnu::noinline]] void break_bonds(store_type const& store, int chunk, std::size_t pack, Real time_step) {
         for (std::size_t s = pack * bond_table::width; s < (pack + 1) * bond_table::width; ++s) {
-            if (bonds_.is_filler(s, store.size())) continue;
+            if (bonds_.is_padding(s, store.size())) continue;
             bond_entry const bond = bonds_.get(s);
             std::int32_t const row = parameter_row(store, bond.i, bond.j);
             auto const failed = fail_bond<BondLaw, ContactLaw>(
@@ -383,7 +383,7 @@ private:
     std::vector<neighbor_pair> held_; ///< buffer of hold_contacts()
     bond_table bonds_;
     contact_table contacts_;
-    force_store<Real, Dim> forces_;
+    force_buffer<Real, Dim> forces_;
     std::vector<Real> moments_, contact_moments_; ///< on the first of each pair, by slot; of laws with moments only
     std::vector<bond_record> bond_records_;
     std::vector<std::int32_t> bond_rows_; ///< of each bond, where bonds have values of their own

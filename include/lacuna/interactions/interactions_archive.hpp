@@ -24,7 +24,7 @@ struct interactions_archive {
         std::vector<std::int32_t> bonds;
         std::vector<std::int8_t> states;
         for (std::size_t s = 0; s < pairs.bonds_.slots(); ++s)
-            if (!pairs.bonds_.is_filler(s, store.size())) bonds.push_back(pairs.bonds_.label(s));
+            if (!pairs.bonds_.is_padding(s, store.size())) bonds.push_back(pairs.bonds_.label(s));
         for (auto const& record : pairs.bond_records_) states.push_back(std::int8_t(record.state));
         ar(pairs.neighbors_, bonds, fixed_length{states}, pairs.broken_);
         if constexpr (Archive::is_loading::value) rebuild(pairs, store, bonds, states);

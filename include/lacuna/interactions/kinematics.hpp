@@ -59,7 +59,7 @@ struct pair_frame {
             return answer.bending_moment + normal * answer.twisting_moment;
     }
     /// How the bodies turned against each other, from their spins (rad/s).
-    pair_turn<T, Dim> turn(vec<T, rotation_dim<Dim>> const& spin_i, vec<T, rotation_dim<Dim>> const& spin_j,
+    pair_rotation<T, Dim> turn(vec<T, rotation_dim<Dim>> const& spin_i, vec<T, rotation_dim<Dim>> const& spin_j,
                            T const& time_step) const {
         auto turned = (spin_j - spin_i) * time_step;
         if constexpr (Dim == 2) {
@@ -70,7 +70,7 @@ struct pair_frame {
         }
     }
     /// A stored shear force, turned with the pair: by the change of its normal and by the mean spin about it.
-    shear turned(shear const& stored) const {
+    shear rotate_with_pair(shear const& stored) const {
         if constexpr (Dim == 2) {
             return stored;
         } else {
@@ -84,7 +84,7 @@ struct pair_frame {
     }
 };
 
-/// Relative motion of two bodies over the last step (MODEL.md section 2).
+/// Relative motion of two bodies over the last step.
 ///
 /// The lever arms are d r_i/(r_i + r_j) and d r_j/(r_i + r_j): they add up to the distance d at any stretch, so
 /// that a rigid motion gives no slip, and forces conserve angular momentum, exactly. The slip is the distance

@@ -147,7 +147,7 @@ void visit_stiffness(particle_store<Real, Dim> const& store, Table const& table,
     };
     if constexpr (!Bonded) return visit_contacts<Law>(store, table, assumed, tell);
     for (std::size_t s = 0; s < table.slots(); ++s) {
-        if (table.is_filler(s, store.size())) continue;
+        if (table.is_padding(s, store.size())) continue;
         auto const i = std::size_t(table.i(s)), j = std::size_t(table.j(s));
         vec<double, Dim> arm{};
         for (int axis = 0; axis < Dim; ++axis)

@@ -3,12 +3,12 @@
 
 #include <vector>
 
-#include <lacuna/core/fetch.hpp>
-#include <lacuna/interactions/storage/force_places.hpp>
+#include <lacuna/core/prefetch.hpp>
+#include <lacuna/interactions/storage/force_offsets.hpp>
 #include <lacuna/interactions/storage/pair_forces.hpp>
 #include <lacuna/interactions/kinematics.hpp>
 #include <lacuna/interactions/storage/pair_table.hpp>
-#include <lacuna/interactions/storage/read_ahead.hpp>
+#include <lacuna/interactions/storage/prefetcher.hpp>
 #include <lacuna/laws/damping.hpp>
 #include <lacuna/laws/law_concepts.hpp>
 #include <lacuna/particles/store.hpp>
@@ -70,7 +70,7 @@ relative_state<Lanes, Dim> load_relative(particle_store<Real, Dim> const& store,
     constexpr Real rolls = Dim == 2 ? 1 : -1;
     Real const* bodies = store.bodies().data();
     Real const signs[8] = {-1, -1, -1, 1, -1, -1, rolls, -1};
-    auto joined = turn_bodies<Real, W>([&]<int N>(int k, int first) {
+    auto joined = transpose_load2<Real, W>([&]<int N>(int k, int first) {
         using part = pack<Real, N>;
         return part::load(bodies + j[k] + first) + part::load(bodies + i[k] + first) * part::load(signs + first);
     });
@@ -85,7 +85,7 @@ relative_state<Lanes, Dim> load_relative(particle_store<Real, Dim> const& store,
     } else {
         using rec = record<Real>;
         Real const* speeds = store.surface_speeds().data();
-        auto turning = turn_records<Real, W>([&](int k) { return rec::load(speeds + j[k] / 2) + rec::load(speeds + i[k] / 2); });
+        auto turning = transpose_load<Real, W>([&](int k) { return rec::load(speeds + j[k] / 2) + rec::load(speeds + i[k] / 2); });
         s.arm = {{joined[0], joined[1], joined[2]}};
         s.velocity = {{joined[4], joined[5], joined[6]}};
         s.rolling = {{turning[0], turning[1], turning[2]}};
@@ -98,7 +98,7 @@ vec<Lanes, rotation_dim<Dim>> load_spin(particle_store<Real, Dim> const& store, 
                                         Lanes const& radius) noexcept {
     Real const* speeds = Dim == 2 ? store.bodies().data() + 4 : store.surface_speeds().data();
     constexpr std::uint32_t share = Dim == 2 ? 1 : 2;
-    auto speed = turn_records<Real, Lanes::width>([&](int k) { return record<Real>::load(speeds + who[k] / share); });
+    auto speed = transpose_load<Real, Lanes::width>([&](int k) { return record<Real>::load(speeds + who[k] / share); });
     if constexpr (Dim == 2)
         return {{speed[2] / radius}};
     else
@@ -124,7 +124,7 @@ template <class Real, int Dim, class Lanes>
 void store_pair_forces(Real* to, vec<Lanes, Dim> const& force, vec<Lanes, rotation_dim<Dim>> const& torque,
                        Lanes const& normal_force) noexcept {
     if constexpr (Dim == 2) {
-        store_turned<Real, Lanes::width>(to, {force[0], force[1], torque[0], normal_force});
+        transpose_store<Real, Lanes::width>(to, {force[0], force[1], torque[0], normal_force});
     } else {
         for (int k = 0; k < Lanes::width; ++k) {
             store_pair_force<Real, Dim>(to + 8 * k, {force[0][k], force[1][k], force[2][k]},
@@ -136,7 +136,7 @@ void store_pair_forces(Real* to, vec<Lanes, Dim> const& force, vec<Lanes, rotati
 
 /// A law's answer to the motion of one pack of pairs; a law with moments also sees how the pair bends.
 template <class Law, class Lanes, class Real, int Dim, class Parameters, class State>
-auto answer_of(Parameters const& law, pair_frame<Lanes, Dim> const& frame, State const& state,
+auto evaluate_law(Parameters const& law, pair_frame<Lanes, Dim> const& frame, State const& state,
                [[maybe_unused]] relative_state<Lanes, Dim> const& pair,
                [[maybe_unused]] particle_store<Real, Dim> const& store, [[maybe_unused]] std::uint32_t const* i,
                [[maybe_unused]] std::uint32_t const* j, [[maybe_unused]] Lanes const& time_step) noexcept {
@@ -151,7 +151,7 @@ auto answer_of(Parameters const& law, pair_frame<Lanes, Dim> const& frame, State
 
 /// One pack of pairs as the kinematics sees it.
 template <class Lanes, int Dim>
-struct seen_pair {
+struct pair_view {
     relative_state<Lanes, Dim> pair;
     pair_frame<Lanes, Dim> frame;
 };
@@ -177,8 +177,8 @@ template <pair_kind Kind, bool WithEnergy, class Law, class Damping, class Domai
                                       parameter_table<Law, Real> const& parameters,
                                       typename Damping::parameters const& damping,
                                       particle_store<Real, Dim> const& store, Real time_step, Real* forces,
-                                      force_places::row const& places, Real* normals,
-                                      [[maybe_unused]] Real* moments, read_ahead::plan& ahead, pair_energy& energy,
+                                      force_offsets::row const& places, Real* normals,
+                                      [[maybe_unused]] Real* moments, prefetcher::plan& ahead, pair_energy& energy,
                                       OnEvent const& on_event, [[maybe_unused]] Real deepest = Real(1),
                                       [[maybe_unused]] Real watched = Real(1)) {
     using lanes = typename pair_table<Law, Real, Dim>::lanes;
@@ -192,42 +192,42 @@ template <pair_kind Kind, bool WithEnergy, class Law, class Damping, class Domai
     std::int32_t loaded = -2;
     constexpr std::size_t packs_ahead = 16;
     bool const fetches = ahead.any;
-    auto const sight = [&](std::size_t p) {
+    auto const load_pair = [&](std::size_t p) {
         auto pair = load_relative<lanes>(store, table.i_records() + p * W, table.j_records() + p * W);
         if constexpr (Domain::periodic) pair.arm = store.period().shortest(pair.arm);
-        return seen_pair<lanes, Dim>{pair, relative_motion(pair, dt)};
+        return pair_view<lanes, Dim>{pair, relative_motion(pair, dt)};
     };
     // The kinematics of the next pack goes before the law of this one: a pack is one long chain of operations, each of
     // which waits for the one before, and the processor does not look far enough ahead to begin another by itself. In
     // space there are not enough registers for two.
     constexpr bool looks_ahead = Dim == 2;
-    seen_pair<lanes, Dim> next{};
+    pair_view<lanes, Dim> next{};
     std::size_t const first = table.first_pack(chunk), end = table.end_pack(chunk);
     // Beyond the end go the packs of the next chunk, behind those that this one has to spare.
-    auto const later = [end, spare = table.first_pack(chunk + 1) - end](std::size_t p) { return p < end ? p : p + spare; };
-    if (looks_ahead && first < end) next = sight(first);
+    auto const pack_after = [end, spare = table.first_pack(chunk + 1) - end](std::size_t p) { return p < end ? p : p + spare; };
+    if (looks_ahead && first < end) next = load_pair(first);
     for (std::size_t p = first; p < end; ++p) {
         std::size_t const slot = p * W;
         if (fetches) {
-            ahead.fetch();
-            table.fetch(later(p + packs_ahead));
+            ahead.prefetch();
+            table.prefetch(pack_after(p + packs_ahead));
             if constexpr (Dim == 3)
-                if (std::size_t const q = later(p + packs_ahead / 2); q < table.packs()) {
+                if (std::size_t const q = pack_after(p + packs_ahead / 2); q < table.packs()) {
                     std::uint32_t const* seconds = table.j_records() + q * W;
-                    fetch_records<W>(store.bodies().data(), seconds);
+                    prefetch_records<W>(store.bodies().data(), seconds);
                     for (int k = 0; k < W; ++k) __builtin_prefetch(store.surface_speeds().data() + seconds[k] / 2);
                 }
         }
-        auto [pair, frame] = looks_ahead ? next : sight(p);
-        if constexpr (looks_ahead) next = sight(p + 1 < end ? p + 1 : p);
+        auto [pair, frame] = looks_ahead ? next : load_pair(p);
+        if constexpr (looks_ahead) next = load_pair(p + 1 < end ? p + 1 : p);
         auto state = states.load(p);
-        if constexpr (Dim == 3 && requires { state.shear_force; }) state.shear_force = frame.turned(state.shear_force);
-        if constexpr (Dim == 3 && carries_moment<Law>) state.bending_moment = frame.turned(state.bending_moment);
+        if constexpr (Dim == 3 && requires { state.shear_force; }) state.shear_force = frame.rotate_with_pair(state.shear_force);
+        if constexpr (Dim == 3 && carries_moment<Law>) state.bending_moment = frame.rotate_with_pair(state.bending_moment);
         if (std::int32_t const row = table.uniform_parameter(p); row != loaded || row < 0) {
             parameters.template load<lanes>(law, row, table.parameter() + slot);
             loaded = row;
         }
-        auto answer = answer_of<Law>(law, frame, state, pair, store, table.i_records() + slot, table.j_records() + slot, dt);
+        auto answer = evaluate_law<Law>(law, frame, state, pair, store, table.i_records() + slot, table.j_records() + slot, dt);
         auto normal = answer.normal_force;
         if constexpr (Damping::acts_on_pairs) {
             lanes mass_i, mass_j;

@@ -63,7 +63,7 @@ public:
 
     /// Lists the particles that may touch a wall before they have moved by `reach`, keeping known histories.
     /// \param tolerance of the first list: those whose gap or overlap is below this fraction of their radius start as
-    ///        touching at zero force, at the distance they have (MODEL.md section 3)
+    ///        touching at zero force, at the distance they have
     void update(particle_store<Real, Dim> const& store, Real reach, Real tolerance = 0) {
         bool const first = reach_ < 0;
         reach_ = reach;
@@ -231,7 +231,7 @@ public:
                                    [[maybe_unused]] Visit const& visit) const {
         if constexpr (carries_moment<ContactLaw>)
             visit_near(store, assumed, [&](near_wall const& n, double r, double, double) {
-                auto const k = ContactLaw::template against_turning<Dim>(row_of(store, n), Real(r), Real(0), Real(r));
+                auto const k = ContactLaw::template rotational_stiffness<Dim>(row_of(store, n), Real(r), Real(0), Real(r));
                 visit(n.particle, walls_[n.plane].normal, moment_stiffness<double>{double(k.bending), double(k.twisting)});
             });
     }
@@ -284,14 +284,14 @@ private:
         }
     }
     /// What a contact in space remembers turns about the normal by the mean of the spins of particle and wall, which has
-    /// none (MODEL.md section 2); the normal stays.
+    /// none; the normal stays.
     static void turn([[maybe_unused]] history_of<Real>& state, [[maybe_unused]] pair_frame<Real, Dim>& frame,
                      [[maybe_unused]] vec<Real, rotation_dim<Dim>> const& spin, [[maybe_unused]] Real time_step) {
         if constexpr (Dim == 3) {
             frame.previous_normal = frame.normal;
             frame.twist = Real(0.5) * dot(spin, frame.normal) * time_step;
-            if constexpr (requires { state.shear_force; }) state.shear_force = frame.turned(state.shear_force);
-            if constexpr (carries_moment<ContactLaw>) state.bending_moment = frame.turned(state.bending_moment);
+            if constexpr (requires { state.shear_force; }) state.shear_force = frame.rotate_with_pair(state.shear_force);
+            if constexpr (carries_moment<ContactLaw>) state.bending_moment = frame.rotate_with_pair(state.bending_moment);
         }
     }
     template <class Parameters>

@@ -27,7 +27,7 @@ struct constant_aperture {
     }
 };
 
-/// Aperture from the contact force (MODEL.md section 5.3, after the flow scheme that the paper follows):
+/// Aperture from the contact force (the flow scheme that the paper follows):
 ///
 ///   under compression        a = a_0 F_0 / (|F_n| + F_0)
 ///   open or in tension       a = a_0 + m * gap      (gap counted from 0)

@@ -111,7 +111,7 @@ struct beam_bond {
     /// E I / L and G J / L, N m/rad.
     /// \param length L, m
     template <int Dim, class T>
-    static moment_stiffness<T> against_turning(parameters<T> const& p, T radius_i, T radius_j, T length) {
+    static moment_stiffness<T> rotational_stiffness(parameters<T> const& p, T radius_i, T radius_j, T length) {
         T r = p.radius_factor * min(radius_i, radius_j);
         T inertia = gyration<Dim, T>() * r * r * smaller_particle_area::area<Dim>(r, r, p.thickness) / length;
         return {p.young_modulus * inertia, Dim == 2 ? T(0) : p.shear_modulus * inertia * T(value_t<T>(2.0))};
@@ -119,12 +119,12 @@ struct beam_bond {
 
     template <class T, int Dim>
     static moment_response<T, Dim, history<T, Dim>> evaluate(parameters<T> const& p, pair_motion<T, Dim> const& m,
-                                                             pair_turn<T, Dim> const& turn, history<T, Dim> const& h) {
+                                                             pair_rotation<T, Dim> const& turn, history<T, Dim> const& h) {
         T r = p.radius_factor * min(m.radius_i, m.radius_j);
         T area = smaller_particle_area::area<Dim>(r, r, p.thickness);
         T length = h.rest_distance;
         T axial = p.young_modulus * area / length;
-        auto turning = against_turning<Dim>(p, m.radius_i, m.radius_j, length);
+        auto turning = rotational_stiffness<Dim>(p, m.radius_i, m.radius_j, length);
         T slender = gyration<Dim, T>() * r * r / (length * length); // I / (A L^2)
         T across = T(value_t<T>(12.0)) * axial * slender / (T(1) + T(value_t<T>(12.0)) * p.shear_compliance * slender);
         T off = T(value_t<T>(0.5)) * m.distance * (m.radius_j - m.radius_i) / (m.radius_i + m.radius_j);
@@ -138,20 +138,20 @@ struct beam_bond {
         // The rim's stress times A: A R / I is 3 / R in the plane and 4 / R in space, A R / J is 2 / R.
         T at_rim = normal + max(norm(bending + half), norm(bending - half)) * T(value_t<T>(Dim == 2 ? 3.0 : 4.0)) / r;
         T along_rim = norm(shear) + abs(twisting) * T(value_t<T>(2.0)) / r;
-        auto verdict = box_envelope::judge(at_rim, along_rim, p.tensile_strength * area, p.shear_strength * area);
+        auto failure = box_envelope::check_strength(at_rim, along_rim, p.tensile_strength * area, p.shear_strength * area);
         T stored = T(value_t<T>(0.5)) * (normal * normal / axial + squared_norm(shear) / across +
                                          squared_norm(bending) / turning.bending);
         if constexpr (Dim == 3) stored = stored + T(value_t<T>(0.5)) * twisting * twisting / turning.twisting;
         return {{{normal, shear, {h.rest_distance, shear, bending, twisting}, stored, T(0)},
-                 verdict.broken,
-                 verdict.in_tension},
+                 failure.broken,
+                 failure.in_tension},
                 bending + arm * off,
                 twisting};
     }
     template <class T, int Dim>
     static moment_response<T, Dim, history<T, Dim>> evaluate(parameters<T> const& p, pair_motion<T, Dim> const& m,
                                                              history<T, Dim> const& h) {
-        return evaluate(p, m, pair_turn<T, Dim>{{}, T(0)}, h);
+        return evaluate(p, m, pair_rotation<T, Dim>{{}, T(0)}, h);
     }
 
     /// E A / L, N/m.

@@ -67,7 +67,7 @@ struct brittle_beam_bond {
         p.spring = brittle_spring_bond::with_values<Dim>(p.spring, springs, radius_i, radius_j);
         if (own.bending_stiffness) {
             p.bending_ratio = 1;
-            p.bending_ratio = *own.bending_stiffness / against_turning<Dim>(p, radius_i, radius_j).bending;
+            p.bending_ratio = *own.bending_stiffness / rotational_stiffness<Dim>(p, radius_i, radius_j).bending;
         }
         return p;
     }
@@ -79,7 +79,7 @@ struct brittle_beam_bond {
     }
 
     template <int Dim, class T>
-    static moment_stiffness<T> against_turning(parameters<T> const& p, T radius_i, T radius_j, T /*distance*/ = T(0)) {
+    static moment_stiffness<T> rotational_stiffness(parameters<T> const& p, T radius_i, T radius_j, T /*distance*/ = T(0)) {
         T r = min(radius_i, radius_j);
         T r2 = r * r * p.bending_ratio;
         if constexpr (Dim == 2)
@@ -91,17 +91,17 @@ struct brittle_beam_bond {
 
     template <class T, int Dim>
     static moment_response<T, Dim, history<T, Dim>> evaluate(parameters<T> const& p, pair_motion<T, Dim> const& m,
-                                                             pair_turn<T, Dim> const& turn, history<T, Dim> const& h) {
+                                                             pair_rotation<T, Dim> const& turn, history<T, Dim> const& h) {
         auto spring = brittle_spring_bond::evaluate<T, Dim>(p.spring, m, {h.rest_distance, h.shear_force});
         T r = min(m.radius_i, m.radius_j);
         T area = smaller_particle_area::area<Dim>(m.radius_i, m.radius_j, p.spring.thickness);
-        auto k = against_turning<Dim>(p, m.radius_i, m.radius_j);
+        auto k = rotational_stiffness<Dim>(p, m.radius_i, m.radius_j);
         auto bending = h.bending_moment + turn.bend * k.bending;
         T twisting = h.twisting_moment + turn.twist * k.twisting;
         T at_rim = spring.normal_force + norm(bending) * T(value_t<T>(Dim == 2 ? 3.0 : 4.0)) / r;
         T along_rim = norm(spring.shear_force) + abs(twisting) * T(value_t<T>(2.0)) / r;
-        auto verdict =
-            box_envelope::judge(at_rim, along_rim, p.spring.tensile_strength * area, p.spring.shear_strength * area);
+        auto failure =
+            box_envelope::check_strength(at_rim, along_rim, p.spring.tensile_strength * area, p.spring.shear_strength * area);
         T stored = spring.stored_energy + T(value_t<T>(0.5)) * (per(squared_norm(bending), k.bending) +
                                                                 per(twisting * twisting, k.twisting));
         return {{{spring.normal_force,
@@ -109,15 +109,15 @@ struct brittle_beam_bond {
                   {spring.history.rest_distance, spring.shear_force, bending, twisting},
                   stored,
                   spring.dissipated_energy},
-                 verdict.broken,
-                 verdict.in_tension},
+                 failure.broken,
+                 failure.in_tension},
                 bending,
                 twisting};
     }
     template <class T, int Dim>
     static moment_response<T, Dim, history<T, Dim>> evaluate(parameters<T> const& p, pair_motion<T, Dim> const& m,
                                                              history<T, Dim> const& h) {
-        return evaluate(p, m, pair_turn<T, Dim>{{}, T(0)}, h);
+        return evaluate(p, m, pair_rotation<T, Dim>{{}, T(0)}, h);
     }
 
     template <class T>

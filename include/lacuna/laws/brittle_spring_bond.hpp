@@ -22,9 +22,9 @@ struct smaller_particle_area {
     }
 };
 
-/// What an envelope has beside its judge(), when it needs no numbers of its own.
+/// What an envelope has beside its check_strength(), when it needs no numbers of its own.
 struct plain_envelope {
-    static constexpr bool crushes = true; ///< under compression the force stays at the tensile limit
+    static constexpr bool yields_in_compression = true; ///< under compression the force stays at the tensile limit
     struct material {
         void validate(std::string const&) const {}
     };
@@ -33,7 +33,7 @@ struct plain_envelope {
     static parameters<double> combine(material const&, material const&) { return {}; }
 
     template <class T>
-    struct verdict {
+    struct failure {
         mask_t<T> broken, in_tension;
     };
 };
@@ -43,11 +43,11 @@ struct plain_envelope {
 /// Under compression the force stays at the tensile limit.
 struct box_envelope : plain_envelope {
     template <class T>
-    static verdict<T> judge(parameters<T> const&, T normal, T shear, T tensile_limit, T shear_limit) {
-        return judge(normal, shear, tensile_limit, shear_limit);
+    static failure<T> check_strength(parameters<T> const&, T normal, T shear, T tensile_limit, T shear_limit) {
+        return check_strength(normal, shear, tensile_limit, shear_limit);
     }
     template <class T>
-    static verdict<T> judge(T normal, T shear, T tensile_limit, T shear_limit) {
+    static failure<T> check_strength(T normal, T shear, T tensile_limit, T shear_limit) {
         auto tension = normal > tensile_limit;
         auto sheared = shear > shear_limit;
         auto tension_leads = normal * shear_limit >= shear * tensile_limit;
@@ -63,7 +63,7 @@ struct box_envelope : plain_envelope {
 ///
 /// Of both in one step the mode whose limit is exceeded by the larger ratio. Nothing fails in pure compression.
 struct mohr_coulomb_envelope {
-    static constexpr bool crushes = false;
+    static constexpr bool yields_in_compression = false;
     struct material {
         double internal_friction = 0.5; ///< tan phi, 1; of a pair the smaller one
 
@@ -81,8 +81,8 @@ struct mohr_coulomb_envelope {
         return {slope, slope > 0 ? min(1 / slope, 1e30) : 1e30};
     }
     template <class T>
-    static box_envelope::verdict<T> judge(parameters<T> const& p, T normal, T shear, T tensile_limit, T cohesion) {
-        return box_envelope::judge(normal, shear, min(tensile_limit, cohesion * p.apex),
+    static box_envelope::failure<T> check_strength(parameters<T> const& p, T normal, T shear, T tensile_limit, T cohesion) {
+        return box_envelope::check_strength(normal, shear, min(tensile_limit, cohesion * p.apex),
                                    max(cohesion - normal * p.internal_friction, T(0)));
     }
 };
@@ -177,19 +177,19 @@ struct brittle_spring_bond_with {
         T limit = p.tensile_strength * area;
         T trial = p.normal_stiffness * (m.distance - h.rest_distance);
         T normal = trial, rest = h.rest_distance;
-        if constexpr (Envelope::crushes) {
+        if constexpr (Envelope::yields_in_compression) {
             normal = max(trial, -limit);
             rest = select(trial < -limit, m.distance + limit * p.normal_compliance, h.rest_distance);
         }
         auto shear = h.shear_force + m.slip * p.shear_stiffness;
-        auto verdict = Envelope::judge(p.envelope, normal, norm(shear), limit, p.shear_strength * area);
+        auto failure = Envelope::check_strength(p.envelope, normal, norm(shear), limit, p.shear_strength * area);
         return {{normal,
                  shear,
                  {rest, shear},
                  T(0.5) * (normal * normal * p.normal_compliance + squared_norm(shear) * p.shear_compliance),
                  limit * (h.rest_distance - rest)},
-                verdict.broken,
-                verdict.in_tension};
+                failure.broken,
+                failure.in_tension};
     }
 
     template <class T>
@@ -200,7 +200,7 @@ struct brittle_spring_bond_with {
     /// Of envelopes that crush: the compression at which the bond gives way without end, N.
     template <int Dim, class T>
     static T compressive_limit(parameters<T> const& p, T radius_i, T radius_j)
-        requires(Envelope::crushes)
+        requires(Envelope::yields_in_compression)
     {
         return p.tensile_strength * Area::template area<Dim>(radius_i, radius_j, p.thickness);
     }

@@ -116,16 +116,16 @@ concept law_hand_over =
 template <class Law, int Dim, class T>
 concept law_moments =
     !carries_moment<Law> || requires(typename Law::template parameters<T> const& parameters,
-                                     pair_motion<T, Dim> const& motion, pair_turn<T, Dim> const& turn,
+                                     pair_motion<T, Dim> const& motion, pair_rotation<T, Dim> const& turn,
                                      typename Law::template history<T, Dim> const& history) {
         { history.bending_moment } -> std::convertible_to<vec<T, rotation_dim<Dim>>>;
         { Law::evaluate(parameters, motion, turn, history).bending_moment } -> std::convertible_to<vec<T, rotation_dim<Dim>>>;
         { Law::evaluate(parameters, motion, turn, history).twisting_moment } -> std::convertible_to<T>;
     };
 template <class Law, int Dim>
-concept law_against_turning =
+concept law_rotational_stiffness =
     !carries_moment<Law> || requires(typename Law::template parameters<double> const& parameters) {
-        { Law::template against_turning<Dim>(parameters, 1.0, 1.0, 1.0) } -> std::convertible_to<moment_stiffness<double>>;
+        { Law::template rotational_stiffness<Dim>(parameters, 1.0, 1.0, 1.0) } -> std::convertible_to<moment_stiffness<double>>;
     };
 
 template <class Law, int Dim, class T>
@@ -136,7 +136,7 @@ concept pair_law = law_material<Law> && law_parameters<Law> && law_history<Law, 
     law_scalar_history<Law, Dim> && law_combine<Law> && law_initial<Law, Dim, double> &&
     law_initial<Law, Dim, law_dual> && law_formula<Law, Dim, double> && law_formula<Law, Dim, law_pack> &&
     law_formula<Law, Dim, law_dual> && law_stiffness_form<Law, Dim, double> && law_stiffness_form<Law, Dim, law_pack> &&
-    law_against_turning<Law, Dim>;
+    law_rotational_stiffness<Law, Dim>;
 
 } // namespace detail
 

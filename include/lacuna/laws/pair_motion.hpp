@@ -10,7 +10,7 @@
 
 namespace lacuna {
 
-/// The relative motion of a pair in its own frame, over one time step (MODEL.md section 2).
+/// The relative motion of a pair in its own frame, over one time step.
 template <class T, int Dim>
 struct pair_motion {
     T distance;                  ///< centre to centre, m
@@ -23,7 +23,7 @@ struct pair_motion {
 
 /// How the bodies of a pair turned against each other over one time step: what bonds with moments read.
 template <class T, int Dim>
-struct pair_turn {
+struct pair_rotation {
     vec<T, rotation_dim<Dim>> bend; ///< turn of j less turn of i; in space its part across the normal, rad
     T twist;                        ///< in space its part about the normal, in the plane 0, rad
     vec<T, Dim> normal{};           ///< unit vector from i to j
@@ -65,8 +65,8 @@ struct moment_stiffness {
 
 /// Whether a law carries moments. It has then
 ///   - `static constexpr bool carries_moment = true` and in its history `bending_moment`, which turns with the pair;
-///   - `evaluate(parameters, pair_motion, pair_turn, history) -> with_moments` beside the form without a turn;
-///   - `against_turning<Dim>(parameters, radius_i, radius_j, distance) -> moment_stiffness`.
+///   - `evaluate(parameters, pair_motion, pair_rotation, history) -> with_moments` beside the form without a turn;
+///   - `rotational_stiffness<Dim>(parameters, radius_i, radius_j, distance) -> moment_stiffness`.
 template <class Law>
 inline constexpr bool carries_moment = requires { requires Law::carries_moment; };
 

@@ -86,7 +86,7 @@ struct parallel_bond {
         p.shear_stiffness = own.shear_stiffness.value_or(p.shear_stiffness);
         if (own.bending_stiffness) {
             p.moment_factor = 1;
-            p.moment_factor = *own.bending_stiffness / against_turning<Dim>(p, radius_i, radius_j).bending;
+            p.moment_factor = *own.bending_stiffness / rotational_stiffness<Dim>(p, radius_i, radius_j).bending;
         }
         own.set_strengths(area, p.tensile_strength, p.shear_strength);
         return p;
@@ -99,7 +99,7 @@ struct parallel_bond {
     }
 
     template <int Dim, class T>
-    static moment_stiffness<T> against_turning(parameters<T> const& p, T radius_i, T radius_j, T /*distance*/ = T(0)) {
+    static moment_stiffness<T> rotational_stiffness(parameters<T> const& p, T radius_i, T radius_j, T /*distance*/ = T(0)) {
         T r = p.radius_factor * min(radius_i, radius_j);
         T r2 = r * r * p.moment_factor;
         if constexpr (Dim == 2)
@@ -110,10 +110,10 @@ struct parallel_bond {
 
     template <class T, int Dim>
     static moment_response<T, Dim, history<T, Dim>> evaluate(parameters<T> const& p, pair_motion<T, Dim> const& m,
-                                                             pair_turn<T, Dim> const& turn, history<T, Dim> const& h) {
+                                                             pair_rotation<T, Dim> const& turn, history<T, Dim> const& h) {
         T r = p.radius_factor * min(m.radius_i, m.radius_j);
         T area = smaller_particle_area::area<Dim>(r, r, p.thickness);
-        auto k = against_turning<Dim>(p, m.radius_i, m.radius_j);
+        auto k = rotational_stiffness<Dim>(p, m.radius_i, m.radius_j);
         T normal = p.normal_stiffness * (m.distance - h.rest_distance);
         auto shear = h.shear_force + m.slip * p.shear_stiffness;
         auto bending = h.bending_moment + turn.bend * k.bending;
@@ -121,20 +121,20 @@ struct parallel_bond {
         // The rim's stress times A: A R / I is 3 / R in the plane and 4 / R in space, A R / J is 2 / R.
         T at_rim = normal + norm(bending) * T(value_t<T>(Dim == 2 ? 3.0 : 4.0)) / r;
         T along_rim = norm(shear) + abs(twisting) * T(value_t<T>(2.0)) / r;
-        auto verdict = box_envelope::judge(at_rim, along_rim, p.tensile_strength * area, p.shear_strength * area);
+        auto failure = box_envelope::check_strength(at_rim, along_rim, p.tensile_strength * area, p.shear_strength * area);
         T stored = T(value_t<T>(0.5)) *
                    (per(normal * normal, p.normal_stiffness) + per(squared_norm(shear), p.shear_stiffness) +
                     per(squared_norm(bending), k.bending) + per(twisting * twisting, k.twisting));
         return {{{normal, shear, {h.rest_distance, shear, bending, twisting}, stored, T(0)},
-                 verdict.broken,
-                 verdict.in_tension},
+                 failure.broken,
+                 failure.in_tension},
                 bending,
                 twisting};
     }
     template <class T, int Dim>
     static moment_response<T, Dim, history<T, Dim>> evaluate(parameters<T> const& p, pair_motion<T, Dim> const& m,
                                                              history<T, Dim> const& h) {
-        return evaluate(p, m, pair_turn<T, Dim>{{}, T(0)}, h);
+        return evaluate(p, m, pair_rotation<T, Dim>{{}, T(0)}, h);
     }
 
     template <class T>

@@ -75,14 +75,14 @@ struct rolling_spring {
 
     /// Stiffness against rolling, N m/rad.
     template <int Dim, class T>
-    static moment_stiffness<T> against_turning(parameters<T> const& p, T radius_i, T radius_j, T /*distance*/ = T(0)) {
+    static moment_stiffness<T> rotational_stiffness(parameters<T> const& p, T radius_i, T radius_j, T /*distance*/ = T(0)) {
         T r = rolling_radius(radius_i, radius_j);
         return {p.rolling_stiffness * r * r, T(0)};
     }
 
     template <class T, int Dim>
     static moment_pair_response<T, Dim, history<T, Dim>> evaluate(parameters<T> const& p, pair_motion<T, Dim> const& m,
-                                                                  pair_turn<T, Dim> const& turn, history<T, Dim> const& h) {
+                                                                  pair_rotation<T, Dim> const& turn, history<T, Dim> const& h) {
         auto springs = frictional_spring::evaluate(p.springs, m, {h.touching_distance, h.shear_force});
         T r = rolling_radius(m.radius_i, m.radius_j);
         T k = p.rolling_stiffness * r * r;
@@ -101,7 +101,7 @@ struct rolling_spring {
     template <class T, int Dim>
     static moment_pair_response<T, Dim, history<T, Dim>> evaluate(parameters<T> const& p, pair_motion<T, Dim> const& m,
                                                                   history<T, Dim> const& h) {
-        return evaluate(p, m, pair_turn<T, Dim>{{}, T(0)}, h);
+        return evaluate(p, m, pair_rotation<T, Dim>{{}, T(0)}, h);
     }
 
     template <class T>

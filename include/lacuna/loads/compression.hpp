@@ -160,7 +160,7 @@ private:
         std::size_t next = 0;
         for (int other = 0; other < Dim; ++other)
             if (other != axis) servo.between[next++] = {2 * other, 2 * other + 1};
-        for (std::size_t const w : walls_of(axis)) sim.hold_wall(w, servo);
+        for (std::size_t const w : walls_of(axis)) sim.servo_wall(w, servo);
     }
 
     compression_parameters p_;

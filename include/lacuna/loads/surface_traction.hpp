@@ -7,7 +7,7 @@
 
 namespace lacuna {
 
-/// How a pressure on a row of particles becomes a force on each (MODEL.md section 7).
+/// How a pressure on a row of particles becomes a force on each.
 enum class traction_area {
     disc, ///< the disc's face, pi r^2: the cartilage model's default
     strip ///< the strip that the disc covers, 2 r t

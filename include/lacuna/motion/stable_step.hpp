@@ -61,17 +61,17 @@ public:
     }
 
     /// Springs against the turn of two particles against each other: across the normal, and about it. N m/rad.
-    void add_turning(std::size_t i, std::size_t j, point const& normal, double bending, double twisting) {
+    void add_rotational(std::size_t i, std::size_t j, point const& normal, double bending, double twisting) {
         std::array<std::size_t, 2> const who{i, j};
-        for_each_turn(normal, [&](int a, gradient const& g) {
+        for_each_rotation(normal, [&](int a, gradient const& g) {
             gradient opposite{};
             for (int x = Dim; x < freedoms; ++x) opposite[std::size_t(x)] = -g[std::size_t(x)];
             add(who, std::array{g, opposite}, a == 0 ? twisting : bending);
         });
     }
     /// The same against something that does not turn.
-    void add_turning(std::size_t i, point const& normal, double bending, double twisting) {
-        for_each_turn(normal, [&](int a, gradient const& g) {
+    void add_rotational(std::size_t i, point const& normal, double bending, double twisting) {
+        for_each_rotation(normal, [&](int a, gradient const& g) {
             add(std::array{i}, std::array<gradient, 1>{g}, a == 0 ? twisting : bending);
         });
     }
@@ -139,7 +139,7 @@ public:
 private:
     /// Calls use(axis number, gradient of the turn about it): 0 for the normal, in space only.
     template <class Use>
-    static void for_each_turn(point const& normal, Use const& use) {
+    static void for_each_rotation(point const& normal, Use const& use) {
         auto const axes = frame(normal);
         for (int a = Dim == 2 ? 1 : 0; a < Dim; ++a) {
             gradient g{};

@@ -19,7 +19,7 @@ namespace lacuna {
 
 /// How a particle's mass follows from its radius.
 enum class mass_model {
-    disc,  ///< cylinder of the model's thickness: rho pi r^2 t, I = m r^2 / 2 (2D; MODEL.md section 1)
+    disc,  ///< cylinder of the model's thickness: rho pi r^2 t, I = m r^2 / 2 (2D)
     sphere ///< rho 4/3 pi r^3, I = 2/5 m r^2
 };
 
@@ -57,9 +57,9 @@ public:
         : id_(order.begin(), order.end()), internal_(order.size()) {
         std::size_t const n = packing.position.size();
         packing.require_one_each();
-        body_.resize(n + ghosts);
+        body_.resize(n + padding_particles);
         if constexpr (Dim == 3) {
-            surface_speed_.resize(n + ghosts);
+            surface_speed_.resize(n + padding_particles);
             quaternion_.assign(n, unit_quaternion());
         }
         loads_at_.assign(n / load_block + 1, -1);
@@ -73,7 +73,7 @@ public:
                 if (Dim == 2) moving_.at(bits, 2) = turning_.at(bits, 0);
             }
         radius_.resize(n);
-        mass_.resize(n + ghosts, Real(1));
+        mass_.resize(n + padding_particles, Real(1));
         material_.resize(n);
         for (std::size_t k = 0; k < n; ++k) {
             auto const id = std::size_t(id_[k]);
@@ -102,7 +102,7 @@ public:
             fix(k, {});
         }
         // Two particles that no real one ever meets: the partners that fill the last pack of a row of pairs.
-        for (std::size_t g = 0; g < ghosts; ++g) {
+        for (std::size_t g = 0; g < padding_particles; ++g) {
             body_.at(n + g, 0) = Real(g);
             body_.at(n + g, 3) = body_.at(n + g, motion + 3) = Real(0.25);
         }
@@ -112,10 +112,10 @@ public:
     void set_period(vec<double, Dim> const& period) noexcept {
         periods_ = periods<Real, Dim>::of(period);
         for (int axis = 0; axis < Dim; ++axis)
-            if (period[axis] > 0) ghost_distance_ = std::min(ghost_distance_, Real(period[axis] / 4));
-        for (std::size_t g = 0; g < ghosts; ++g) {
-            body_.at(size() + g, 0) = Real(g) * ghost_distance_;
-            body_.at(size() + g, 3) = body_.at(size() + g, motion + 3) = ghost_distance_ / 4;
+            if (period[axis] > 0) padding_distance_ = std::min(padding_distance_, Real(period[axis] / 4));
+        for (std::size_t g = 0; g < padding_particles; ++g) {
+            body_.at(size() + g, 0) = Real(g) * padding_distance_;
+            body_.at(size() + g, 3) = body_.at(size() + g, motion + 3) = padding_distance_ / 4;
         }
     }
     /// Of the space; all zero where it is open.
@@ -229,12 +229,12 @@ public:
     rec inverse_rotary(std::size_t k) const noexcept { return turning_[free_[k]] * rec(inverse_mass_[k]); }
     /// 3D: torques from outside over radius, N; empty while there are none. In 2D lane 2 of load().
     record_column<Real> const& torques() const noexcept { return torque_; }
-    /// Masses, those of the ghosts included, kg.
+    /// Masses, those of the padding_particles included, kg.
     Real const* masses() const noexcept { return mass_.data(); }
     /// Internal index of the two partners that fill incomplete packs of pairs.
-    std::int32_t ghost(int which) const noexcept { return std::int32_t(size()) + which; }
+    std::int32_t padding_particle(int which) const noexcept { return std::int32_t(size()) + which; }
     /// How far they are from each other, m.
-    Real ghost_distance() const noexcept { return ghost_distance_; }
+    Real padding_distance() const noexcept { return padding_distance_; }
     template <class Archive>
     void serialize(Archive& ar) {
         ar(body_, surface_speed_, quaternion_, fixed_length{free_}, fixed_length{loads_at_});
@@ -255,7 +255,7 @@ public:
     static constexpr std::size_t load_block = 128;
 
 private:
-    static constexpr std::size_t ghosts = 2;
+    static constexpr std::size_t padding_particles = 2;
     /// Bits of free_: the axes, then the rotation.
     static constexpr unsigned turns = 1u << Dim, free_patterns = 2u << Dim;
     static constexpr double min_normal() { return double(std::numeric_limits<Real>::min()); }
@@ -283,7 +283,7 @@ private:
     }
 
     periods<Real, Dim> periods_;
-    Real ghost_distance_ = 1;
+    Real padding_distance_ = 1;
     std::vector<std::int32_t> id_, internal_;
     std::vector<int> material_;
     std::vector<Real> radius_, mass_, inverse_mass_;

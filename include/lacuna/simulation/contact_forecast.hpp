@@ -168,8 +168,8 @@ private:
         normal[0] = 1;
         stiff_bound_.add_pair(0, 1, normal, k.normal, k.shear, 0, ri, rj);
         if constexpr (carries_moment<law>) {
-            auto const turning = law::template against_turning<dim>(row, real(ri), real(rj), real(ri + rj));
-            stiff_bound_.add_turning(0, 1, normal, double(turning.bending), double(turning.twisting));
+            auto const turning = law::template rotational_stiffness<dim>(row, real(ri), real(rj), real(ri + rj));
+            stiff_bound_.add_rotational(0, 1, normal, double(turning.bending), double(turning.twisting));
         }
         if constexpr (Model::damping::acts_on_pairs)
             viscous_bound_.add_pair(0, 1, normal,

@@ -48,7 +48,7 @@ public:
             remesher_.start(remeshing, make, real(thickness), *flow_, store.positions(), radii, pairs);
             map_throats(pairs);
             // So that step limits are those of the gaps that there are.
-            skip_idle_throats(store, pairs);
+            deactivate_slow_throats(store, pairs);
         }
     }
 
@@ -90,7 +90,7 @@ public:
         if constexpr (has_fluid<Model>)
             if (flow_ && make_anew(store, pairs, number)) {
                 map_throats(pairs);
-                skip_idle_throats(store, pairs);
+                deactivate_slow_throats(store, pairs);
                 return true;
             }
         return false;
@@ -98,11 +98,11 @@ public:
 
     /// New apertures; leaves out the throats that do not matter, and takes up again those that have opened.
     template <class Pairs>
-    void skip_idle_throats(store_type const& store, Pairs const& pairs) {
+    void deactivate_slow_throats(store_type const& store, Pairs const& pairs) {
         if constexpr (has_fluid<Model>)
             if (flow_) {
                 flow_->refresh_apertures(store.bodies(), pairs.normal_forces());
-                flow_->skip_idle_throats();
+                flow_->deactivate_slow_throats();
             }
     }
     /// Writes to, or reads from, an archive what a run changes.

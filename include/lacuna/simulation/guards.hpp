@@ -128,7 +128,7 @@ template <class Real, int Dim, class Table>
 std::int64_t find_deep_bond(particle_store<Real, Dim> const& store, Table const& bonds, double limit,
                             std::span<std::int32_t const> deep_at_start) noexcept {
     for (std::size_t s = 0; s < bonds.slots(); ++s) {
-        if (bonds.is_filler(s, store.size())) continue;
+        if (bonds.is_padding(s, store.size())) continue;
         auto const i = std::size_t(bonds.i(s)), j = std::size_t(bonds.j(s));
         Real const far = store.radius(i) + store.radius(j) - Real(limit) * std::min(store.radius(i), store.radius(j));
         if (!(far > 0 && squared_norm(store.nearest(store.position(j) - store.position(i))) < far * far)) continue;
@@ -145,7 +145,7 @@ std::string crushed_bond([[maybe_unused]] particle_store<Real, Dim> const& store
     if constexpr (requires(parameters p, Real r) { Law::template compressive_limit<Dim>(p, r, r); }) {
         auto const& bonds = pairs.bonds();
         for (std::size_t s = 0; s < bonds.slots(); ++s) {
-            if (bonds.is_filler(s, store.size())) continue;
+            if (bonds.is_padding(s, store.size())) continue;
             auto const i = std::size_t(bonds.i(s)), j = std::size_t(bonds.j(s));
             auto const& row = pairs.bond_parameters().row[std::size_t(bonds.parameter()[s])];
             Real const limit = Law::template compressive_limit<Dim>(row, store.radius(i), store.radius(j));

@@ -54,7 +54,7 @@ struct limit_scratch {
     frequency_bound<Dim> stiff, viscous;
 };
 
-/// Limits of the time step of the given parts in their present state (MODEL.md section 6). Counted are bonds, contacts of
+/// Limits of the time step of the given parts in their present state. Counted are bonds, contacts of
 /// particles and walls that touch or may under an assumption, their dashpots, other damping, and the fluid.
 /// \param flow nullptr without fluid
 template <class Model, class Store, class Interactions, class Walls, class Flow>
@@ -86,7 +86,7 @@ time_step_limits find_limits(Store const& store, Interactions const& interaction
     });
     interactions.for_each_moment_stiffness(
         store, assumed, [&](std::size_t i, std::size_t j, point const& normal, moment_stiffness<double> const& k) {
-            bound.add_turning(i, j, normal, k.bending, k.twisting);
+            bound.add_rotational(i, j, normal, k.bending, k.twisting);
         });
     walls.for_each_stiffness(store, assumed, [&](std::size_t k, point const& normal, double kn, double ks, double lever) {
         bound.add_support(k, normal, kn, ks, lever);
@@ -95,7 +95,7 @@ time_step_limits find_limits(Store const& store, Interactions const& interaction
     });
     walls.for_each_moment_stiffness(
         store, assumed, [&](std::size_t k, point const& normal, moment_stiffness<double> const& stiffness) {
-            bound.add_turning(k, normal, stiffness.bending, stiffness.twisting);
+            bound.add_rotational(k, normal, stiffness.bending, stiffness.twisting);
         });
     time_step_limits result;
     result.wave_limit = wave;

@@ -82,12 +82,12 @@ constexpr bool explain_law() {
         static_assert(never, "the law's evaluate() must take every scalar type T: packs and dual numbers too");
     else if constexpr (!law_moments<Law, Dim, double> || !law_moments<Law, Dim, law_pack> || !law_moments<Law, Dim, law_dual>)
         static_assert(never, "a law that carries moments needs: bending_moment in its history, and evaluate(parameters<T>, "
-                             "pair_motion<T, Dim>, pair_turn<T, Dim>, history<T, Dim>) that answers with_moments");
+                             "pair_motion<T, Dim>, pair_rotation<T, Dim>, history<T, Dim>) that answers with_moments");
     else if constexpr (!law_stiffness_form<Law, Dim, double> || !law_stiffness_form<Law, Dim, law_pack>)
         static_assert(never, "the law needs, for every T: static T stiffness(parameters<T> const&), or with pair_motion and "
                              "history behind");
-    else if constexpr (!law_against_turning<Law, Dim>)
-        static_assert(never, "a law that carries moments needs: static moment_stiffness<T> against_turning<Dim>(parameters<T> "
+    else if constexpr (!law_rotational_stiffness<Law, Dim>)
+        static_assert(never, "a law that carries moments needs: static moment_stiffness<T> rotational_stiffness<Dim>(parameters<T> "
                              "const&, T radius_i, T radius_j, T distance)");
     else if constexpr (bond && !(law_broken<Law, Dim, double> && law_broken<Law, Dim, law_pack>))
         static_assert(never, "the bond law's evaluate() needs: an answer with broken and broken_in_tension, mask_t<T>: bond_response");
@@ -136,8 +136,8 @@ constexpr bool explain_flow() {
         else if constexpr (!flow_refresh_apertures<solver, Real>)
             static_assert(never, "the flow's solver needs: void refresh_apertures(body_column<Real> const&, Real "
                                  "const* normal_forces)");
-        else if constexpr (!flow_skip_idle_throats<solver>)
-            static_assert(never, "the flow's solver needs: skip_idle_throats()");
+        else if constexpr (!flow_deactivate_slow_throats<solver>)
+            static_assert(never, "the flow's solver needs: deactivate_slow_throats()");
         else if constexpr (!(flow_step<solver, Real, true> && flow_step<solver, Real, false>))
             static_assert(never, "the flow's solver needs: template <bool WithLedger> void step(body_column<Real> "
                                  "const&, Real const* normal_forces, Real dt, int threads, record_column<Real>* tractions)");

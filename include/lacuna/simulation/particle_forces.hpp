@@ -29,7 +29,7 @@ particle_force<Real, Dim> total_force(particle_store<Real, Dim> const& store, In
         for (int axis = 0; axis < Dim; ++axis) sum.force[axis] += force[axis];
         for (int axis = 0; axis < rotation_dim<Dim>; ++axis) sum.turning[axis] += turning[Dim == 2 ? 2 : axis];
     };
-    interactions.with_forces_on(int(k / chunk_particles), [&](auto const& pair_force) {
+    interactions.for_force_sums(int(k / chunk_particles), [&](auto const& pair_force) {
         auto const of_pairs = pair_force(int(k % chunk_particles));
         if constexpr (Dim == 2)
             add(of_pairs, of_pairs);

@@ -14,7 +14,7 @@
 #include <lacuna/pores/flow/tractions.hpp>
 #include <lacuna/pores/mesh/no_pores.hpp>
 #include <lacuna/pores/network/network_shape.hpp>
-#include <lacuna/pores/remesh/carry_fluid.hpp>
+#include <lacuna/pores/remesh/transfer_fluid.hpp>
 #include <lacuna/pores/remesh/remesh.hpp>
 
 namespace lacuna {
@@ -66,7 +66,7 @@ public:
         if (another) {
             keep_sizes(old, network);
             auto fresh = Flow(p, std::move(network), thickness_, points, radii).network();
-            auto const report = carry_fluid(old, fresh, points, p.bulk_modulus, p.minimum_pressure);
+            auto const report = transfer_fluid(old, fresh, points, p.bulk_modulus, p.minimum_pressure);
             auto ledger = flow.ledger();
             ++ledger.remeshes;
             ledger.remesh_energy += storage_energy(fresh, p.bulk_modulus) - flow.storage_energy();
@@ -115,7 +115,7 @@ private:
         return [&pairs, count](auto const& use) {
             auto const each = [&](auto const& table) {
                 for (std::size_t s = 0; s < table.slots(); ++s)
-                    if (!table.is_filler(s, count)) use(table.i(s), table.j(s));
+                    if (!table.is_padding(s, count)) use(table.i(s), table.j(s));
             };
             each(pairs.bonds());
             each(pairs.contacts());

@@ -85,7 +85,7 @@ start_pairs check_start(particle_store<Real, Dim> const& store, Interactions con
     };
     auto const visit = [&](auto const& table, auto const& use) {
         for (std::size_t s = 0; s < table.slots(); ++s) {
-            if (table.is_filler(s, store.size())) continue;
+            if (table.is_padding(s, store.size())) continue;
             auto const i = table.i(s), j = table.j(s);
             auto const x = store.position(std::size_t(i)), y = store.position(std::size_t(j));
             Real far = std::min(store.radius(std::size_t(i)), store.radius(std::size_t(j)));

@@ -38,7 +38,7 @@ struct my_flow {
         template <class Lookup>
         void map_throats(Lookup const&) {}
         void refresh_apertures(lacuna::body_column<Real> const&, Real const*) {}
-        void skip_idle_throats() {}
+        void deactivate_slow_throats() {}
 #ifndef NO_STEP
         template <bool WithLedger>
         void step(lacuna::body_column<Real> const&, Real const*, Real, int, lacuna::record_column<Real>*) {}

@@ -166,7 +166,7 @@ template <class Real, int Dim, class Table>
                                                                 Table const& contacts, std::size_t pack, Real limit) {
     std::array<std::int32_t, 2> found{-1, -1};
     for (std::size_t s = pack * Table::width; s < (pack + 1) * Table::width; ++s)
-        if (!contacts.is_filler(s, store.size()) && overlap_of(store, contacts.i(s), contacts.j(s)) > limit)
+        if (!contacts.is_padding(s, store.size()) && overlap_of(store, contacts.i(s), contacts.j(s)) > limit)
             found = {contacts.i(s), contacts.j(s)};
     return found;
 }
@@ -176,7 +176,7 @@ template <class Real, int Dim, class Table>
 [[gnu::noinline]] Real deepest_of_pack(particle_store<Real, Dim> const& store, Table const& contacts, std::size_t pack) {
     Real deepest = 0;
     for (std::size_t s = pack * Table::width; s < (pack + 1) * Table::width; ++s) {
-        if (contacts.is_filler(s, store.size())) continue;
+        if (contacts.is_padding(s, store.size())) continue;
         auto const i = std::size_t(contacts.i(s)), j = std::size_t(contacts.j(s));
         pair_motion<Real, Dim> const still{Real(0), store.radius(i), store.radius(j), {}, Real(0)};
         Real const distance = norm(store.nearest(store.position(j) - store.position(i)));

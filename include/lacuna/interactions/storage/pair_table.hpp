@@ -20,7 +20,7 @@ LACUNA_BEGIN_PACKS
 ///
 /// Pairs are sorted by (i, j), i < j, and cut into chunks: chunk c holds the pairs whose i lies in the c-th run of
 /// `chunk_particles` particles. A chunk has a range of packs of its own: first those in use, the last of which is filled
-/// up with pairs of the store's two ghosts, then packs to spare, all of them such pairs.
+/// up with pairs of the store's two padding particles, then packs to spare, all of them such pairs.
 template <class Law, class Real, int Dim>
 class pair_table {
 public:
@@ -44,7 +44,7 @@ public:
 
     /// Replaces all pairs; nothing to spare.
     /// \param entries sorted by (i, j)
-    /// \param store particle_store of the particles, with the ghosts
+    /// \param store particle_store of the particles, with the padding particles
     template <class Store>
     void assign(std::span<entry const> entries, Store const& store) {
         auto const first = [&](int c) { return first_of_chunk(entries, c); };
@@ -92,7 +92,7 @@ public:
         return fits;
     }
     /// Lays the table out anew, its pairs as they are, with packs to spare in every chunk.
-    /// \param store particle_store of the particles, with the ghosts
+    /// \param store particle_store of the particles, with the padding particles
     /// \param count callable chunk -> number of pairs for which there is to be room, not less than it has
     template <class Store, class Count>
     void make_room(Store const& store, Count const& count) {
@@ -138,14 +138,14 @@ public:
     }
 
     std::size_t packs() const noexcept { return i_.size() / width; }
-    /// Number of slots, fillers included.
+    /// Number of slots, padding included.
     std::size_t slots() const noexcept { return i_.size(); }
-    /// Number of pairs, without fillers.
+    /// Number of pairs, without padding.
     std::size_t size() const noexcept {
         return std::accumulate(chunk_pairs_.begin(), chunk_pairs_.end(), std::size_t(0));
     }
     int chunks() const noexcept { return int(chunk_pairs_.size()); }
-    /// Number of pairs of a chunk, without fillers; they begin at first_slot().
+    /// Number of pairs of a chunk, without padding; they begin at first_slot().
     std::size_t chunk_size(int chunk) const noexcept { return chunk_pairs_[std::size_t(chunk)]; }
     std::size_t first_pack(int chunk) const noexcept { return chunk_begin_[std::size_t(chunk)]; }
     /// End of the packs of a chunk that are in use.
@@ -166,8 +166,8 @@ public:
     }
 
     /// Asks the memory for a pack; one beyond the end does no harm.
-    void fetch(std::size_t p) const noexcept {
-        state_.fetch(p);
+    void prefetch(std::size_t p) const noexcept {
+        state_.prefetch(p);
         __builtin_prefetch(i_.data() + width * p);
         __builtin_prefetch(j_.data() + width * p);
     }
@@ -183,7 +183,7 @@ public:
     {
         return label_[slot];
     }
-    bool is_filler(std::size_t slot, std::size_t particles) const noexcept { return std::size_t(i_[slot]) >= stride * particles; }
+    bool is_padding(std::size_t slot, std::size_t particles) const noexcept { return std::size_t(i_[slot]) >= stride * particles; }
     /// The parameter row that all pairs of a pack share, or -1.
     std::int32_t uniform_parameter(std::size_t p) const noexcept { return uniform_[p]; }
     field_packs<history_of, Real, width>& states() noexcept { return state_; }
@@ -254,16 +254,16 @@ private:
         if constexpr (labelled) label_[to] = label_[from];
         state_.set(to, state_.get(from));
     }
-    /// Makes pairs of ghosts of what is behind a chunk's pairs, in the first packs of its range.
+    /// Makes pairs of padding_pair of what is behind a chunk's pairs, in the first packs of its range.
     template <class Store>
     void fill_up(int chunk, std::size_t packs, Store const& store) noexcept {
-        Real const apart = store.ghost_distance();
+        Real const apart = store.padding_distance();
         std::size_t const first = first_slot(chunk);
         std::size_t slot = first + chunk_pairs_[std::size_t(chunk)];
         // In their pack's row, so that it has one.
-        entry const ghosts{store.ghost(0), store.ghost(1), slot > first ? parameter_[slot - 1] : 0, -1,
+        entry const padding_pair{store.padding_particle(0), store.padding_particle(1), slot > first ? parameter_[slot - 1] : 0, -1,
                            Law::template initial<Real, Dim>(apart, apart / 2)};
-        for (; slot < first + packs * width; ++slot) put(slot, ghosts);
+        for (; slot < first + packs * width; ++slot) put(slot, padding_pair);
     }
     /// Looks which rows the packs of a chunk have.
     void look_for_rows(int chunk) noexcept {

@@ -15,7 +15,7 @@
 namespace lacuna {
 
 LACUNA_BEGIN_PACKS
-/// The forces of the pores on their corners, and their sums on the particles. As force_rows has it for the pairs: per
+/// The forces of the pores on their corners, and their sums on the particles. As force_gather has it for the pairs: per
 /// particle a row of entries, in the order of summation, all rows of a group of particles equally long (filled up with a
 /// zero force).
 ///
@@ -37,11 +37,11 @@ public:
 
     /// \param net pore_network, not bare
     /// \param run pores of a run: write_met() is called after each
-    /// \param streaming whether forces are kept no longer than it takes to sum them up
+    /// \param transient whether forces are kept no longer than it takes to sum them up
     template <class Network>
-    void build(Network const& net, std::size_t run, bool streaming) {
+    void build(Network const& net, std::size_t run, bool transient) {
         particles_ = net.particles;
-        streaming_ = streaming;
+        transient_ = transient;
         std::size_t const groups = (particles_ + group_particles - 1) / group_particles;
         std::vector<std::uint32_t> degree(groups * group_particles, 0);
         std::vector<std::size_t> oldest(groups, std::numeric_limits<std::size_t>::max()), last(groups, 0);
@@ -53,8 +53,8 @@ public:
         });
         find_met(net.pores(), run, last);
         std::size_t const packs = (net.pores() + width - 1) / width;
-        std::size_t const kept = streaming ? std::bit_ceil(longest_use(net.pores(), run, oldest)) : packs;
-        mask_ = streaming ? kept - 1 : std::numeric_limits<std::size_t>::max();
+        std::size_t const kept = transient ? std::bit_ceil(longest_use(net.pores(), run, oldest)) : packs;
+        mask_ = transient ? kept - 1 : std::numeric_limits<std::size_t>::max();
         force_ = {};
         force_.resize(kept * pack_reals + force_reals, Real(0));
 
@@ -76,7 +76,7 @@ public:
 
     /// Whether build() was called.
     bool built() const noexcept { return !begin_.empty(); }
-    bool streaming() const noexcept { return streaming_; }
+    bool transient() const noexcept { return transient_; }
 
     /// Where the forces of a pack of pores stand: on the first corners, the second, the third.
     Real* of_pack(std::size_t pack) noexcept { return force_.data() + (pack & mask_) * pack_reals; }
@@ -169,7 +169,7 @@ private:
     }
 
     std::size_t particles_ = 0, mask_ = 0;
-    bool streaming_ = false;
+    bool transient_ = false;
     std::vector<std::uint32_t> row_, entry_;
     std::vector<std::size_t> begin_, met_;
     aligned_vector<Real> force_; // and a zero

@@ -71,20 +71,20 @@ public:
         this->template begin_step<WithLedger>();
         bool const flowing = this->flows() && dt > Real(0);
         bool const at_once = this->parameters_.substeps == 1;
-        bool const streaming = at_once && this->can_stream(threads);
-        this->keep_forces(streaming);
-        if (streaming && !WithLedger) {
-            this->sweep(place.data(), normal_forces, dt, flowing, tractions);
+        bool const transient = at_once && this->can_stream(threads);
+        this->set_force_retention(transient);
+        if (transient && !WithLedger) {
+            this->fused_step(place.data(), normal_forces, dt, flowing, tractions);
         } else if (at_once || !flowing) {
             if (flowing) this->template compute_flows<true>(place.data(), normal_forces, threads);
             this->template advance_pressures<true, WithLedger>(place.data(), dt, Real(1), flowing, threads, tractions);
         } else {
-            this->measure(place.data(), threads);
+            this->update_geometry(place.data(), threads);
             this->template compute_flows<true>(place.data(), normal_forces, threads);
             this->template take_substeps<WithLedger>(count_substeps(dt), dt, threads, [&](bool first, Real, Real) {
                 if (!first) this->template compute_flows<false>(nullptr, nullptr, threads);
             });
-            this->press(tractions, threads);
+            this->apply_pressures(tractions, threads);
         }
         this->end_step(dt);
     }

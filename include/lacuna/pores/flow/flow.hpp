@@ -54,7 +54,7 @@ concept flow_refresh_apertures = requires(Solver& solver, body_column<Real> cons
     solver.refresh_apertures(place, normal_forces);
 };
 template <class Solver>
-concept flow_skip_idle_throats = requires(Solver& solver) { solver.skip_idle_throats(); };
+concept flow_deactivate_slow_throats = requires(Solver& solver) { solver.deactivate_slow_throats(); };
 template <class Solver, class Real, bool WithLedger>
 concept flow_step = requires(Solver& solver, body_column<Real> const& place, Real const* normal_forces, Real dt,
                              record_column<Real>* out) {
@@ -87,7 +87,7 @@ concept flow_serialize = requires(Solver& solver, any_archive& ar) { solver.seri
 
 template <class Solver, class Real, int Dim>
 concept flow_solver = flow_settings<Solver> && flow_network<Solver, Real, Dim> && flow_map_throats<Solver> &&
-    flow_refresh_apertures<Solver, Real> && flow_skip_idle_throats<Solver> && flow_step<Solver, Real, true> &&
+    flow_refresh_apertures<Solver, Real> && flow_deactivate_slow_throats<Solver> && flow_step<Solver, Real, true> &&
     flow_step<Solver, Real, false> && flow_time_step<Solver> && flow_tractions<Solver, Real, Dim> &&
     flow_energies<Solver, Real> && flow_restore<Solver, Real, Dim> && flow_serialize<Solver>;
 } // namespace detail
@@ -103,7 +103,7 @@ concept flow_solver = flow_settings<Solver> && flow_network<Solver, Real, Dim> &
 ///   - `step<WithLedger>(bodies, normal_forces, dt, threads, tractions)`: called once per step, writes what the pores exert
 ///     on the particles. A step of 0 s lets pressures follow the volumes, and nothing flow;
 ///   - `map_throats(lookup)`, called whenever the pairs' places in memory change, `refresh_apertures(bodies, normal_forces)`
-///     and `skip_idle_throats()`, called at the start and whenever pairs or pores have changed: all three may do nothing;
+///     and `deactivate_slow_throats()`, called at the start and whenever pairs or pores have changed: all three may do nothing;
 ///   - `critical_time_step()` of the flow alone, s, and `pore_tractions(pore, points, radii)`, the forces on its corners for
 ///     1 Pa in it, N: the stiffness of the fluid for the bound of the time step;
 ///   - `storage_energy()`, J, and `ledger()`: for the energy ledger;
@@ -138,7 +138,7 @@ struct no_flow {
         Real storage_energy() const noexcept { return Real(0); }
         flow_ledger<Real> const& ledger() const noexcept { return ledger_; }
         pore_network<Real, Dim> const& network() const noexcept { return network_; }
-        std::size_t skip_idle_throats() noexcept { return 0; }
+        std::size_t deactivate_slow_throats() noexcept { return 0; }
         template <class Archive>
         void serialize(Archive&) noexcept {}
 

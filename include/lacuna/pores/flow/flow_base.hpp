@@ -19,7 +19,7 @@
 #include <lacuna/pores/flow/flow_sums.hpp>
 #include <lacuna/pores/flow/flow_time_step.hpp>
 #include <lacuna/pores/flow/merging.hpp>
-#include <lacuna/pores/flow/pore_feed.hpp>
+#include <lacuna/pores/flow/source_exchange.hpp>
 #include <lacuna/pores/network/pore_network.hpp>
 #include <lacuna/pores/flow/pore_pass.hpp>
 #include <lacuna/pores/flow/throat_pass.hpp>
@@ -74,8 +74,8 @@ public:
     /// New pore volumes. The volume change that the next step sees is that since the last one. step() does it itself.
     void refresh_geometry(points_view<Real, Dim> points, Real const* radii) {
         if (network_.bare()) return;
-        if (!forces_.built()) keep_forces(true);
-        measure(particle_records(points, radii).data(), 1);
+        if (!forces_.built()) set_force_retention(true);
+        update_geometry(particle_records(points, radii).data(), 1);
     }
 
     /// Tells each throat where the normal force of its pair is; to be called whenever the pairs' places in memory change.
@@ -103,12 +103,12 @@ public:
     /// refresh_apertures(), at the start and whenever throats may have opened.
     /// \return how many throats are skipped
     /// \throws std::invalid_argument for a duration that is not positive.
-    std::size_t skip_idle_throats(Real duration) {
+    std::size_t deactivate_slow_throats(Real duration) {
         if (!(duration > Real(0))) refuse("duration", double(duration), "> 0");
         for (std::size_t t = 0; t < network_.open_throats(); ++t) {
             double const limit = throat_time_step(network_, t, parameters_.bulk_modulus);
-            network_.idle[t] = limit <= parameters_.skip_ratio * double(duration) ? 0 : 1;
-            if (network_.idle[t]) network_.flow[t] = Real(0);
+            network_.inactive[t] = limit <= parameters_.skip_ratio * double(duration) ? 0 : 1;
+            if (network_.inactive[t]) network_.flow[t] = Real(0);
         }
         throats_.collect_active(network_);
         clusters_.update(network_);
@@ -116,7 +116,7 @@ public:
     }
 
     /// The same for the duration that the parameters state.
-    std::size_t skip_idle_throats() { return skip_idle_throats(Real(parameters_.duration)); }
+    std::size_t deactivate_slow_throats() { return deactivate_slow_throats(Real(parameters_.duration)); }
 
     /// Forces on the corners of a pore for 1 Pa in it, N; also of a pore at its least volume.
     std::array<vec<Real, Dim>, std::size_t(Dim) + 1> pore_tractions(std::size_t pore, points_view<Real, Dim> points,
@@ -168,7 +168,7 @@ protected:
         ledger_ = ledger;
         fit_vapour();
         if (same) {
-            pores_.set_fillers(network_);
+            pores_.set_padding(network_);
             throats_.collect_active(network_);
             feed_.build(network_);
             clusters_.build(network_, parameters_.merge_conductance);
@@ -185,18 +185,18 @@ protected:
     }
 
     /// New volumes and forces for 1 Pa.
-    void measure(Real const* place, int threads) noexcept {
-        for_each_chunk(pores_.chunks(), threads, [&](int c) { pores_.measure(c, network_, place, thickness_, forces_); });
+    void update_geometry(Real const* place, int threads) noexcept {
+        for_each_chunk(pores_.chunks(), threads, [&](int c) { pores_.update_geometry(c, network_, place, thickness_, forces_); });
     }
-    /// Forces of the pressures, after measure().
-    void press(record_column<Real>* tractions, int threads) noexcept {
-        for_each_chunk(pores_.chunks(), threads, [&](int c) { pores_.press(c, network_, forces_); });
+    /// Forces of the pressures, after update_geometry().
+    void apply_pressures(record_column<Real>* tractions, int threads) noexcept {
+        for_each_chunk(pores_.chunks(), threads, [&](int c) { pores_.apply_pressures(c, network_, forces_); });
         write_tractions(tractions, threads);
     }
-    /// Makes room for the forces on the corners. \param streaming see corner_forces
-    void keep_forces(bool streaming) {
-        if (forces_.built() && forces_.streaming() == streaming) return;
-        forces_.build(network_, pore_table<Real, Dim>::chunk_packs * pore_table<Real, Dim>::width, streaming);
+    /// Makes room for the forces on the corners. \param transient see corner_forces
+    void set_force_retention(bool transient) {
+        if (forces_.built() && forces_.transient() == transient) return;
+        forces_.build(network_, pore_table<Real, Dim>::chunk_packs * pore_table<Real, Dim>::width, transient);
     }
     /// Whether forces can be summed up as soon as they are there: on one thread, with throats in the order of their pores,
     /// and nothing changes a pressure after the pass over the pores.
@@ -207,7 +207,7 @@ protected:
     /// The whole step where can_stream(): throats, pores and sums on the particles follow each other run by run, while
     /// what they read is in the cache. A throat belongs to the lower of its pores: once the throats before the end of a
     /// run have their flows, nothing reads the old pressures of its pores again.
-    void sweep(Real const* place, Real const* normal_forces, Real dt, bool flowing, record_column<Real>* tractions) noexcept {
+    void fused_step(Real const* place, Real const* normal_forces, Real dt, bool flowing, record_column<Real>* tractions) noexcept {
         auto const fluid = constants();
         auto const flow_through = [&](std::size_t first, std::size_t end) {
             throats_.template pass<true, true, aperture_type>(first, end, network_, place, normal_forces,
@@ -256,7 +256,7 @@ protected:
         for_each_chunk(pores_.chunks(), threads, [&](int c) {
             pores_.template advance<Fused, WithLedger>(c, network_, place, fluid, dt, flowing, part, forces_,
                                                        pore_sums_[std::size_t(c)]);
-            if (Fused && tractions && forces_.streaming()) forces_.write_met(std::size_t(c), *tractions);
+            if (Fused && tractions && forces_.transient()) forces_.write_met(std::size_t(c), *tractions);
         });
         pore_sums<Real> pores;
         throat_sums<Real> throats;
@@ -265,7 +265,7 @@ protected:
         if constexpr (Fused) {
             for (auto const& f : feed_.pores()) pores_.press_one(f.pore, network_, place, thickness_, forces_);
             for (auto const p : clusters_.members()) pores_.press_one(std::size_t(p), network_, place, thickness_, forces_);
-            if (!forces_.streaming()) write_tractions(tractions, threads);
+            if (!forces_.transient()) write_tractions(tractions, threads);
         }
         if constexpr (WithLedger) {
             add_up_throats(flowing ? dt : Real(0), threads);
@@ -304,7 +304,7 @@ protected:
     bool told_ = false;
     network_type network_;
     flow_ledger<Real> ledger_;
-    pore_feed<Real> feed_;
+    source_exchange<Real> feed_;
     pore_clusters<Real, Dim> clusters_;
 
 private:

@@ -21,7 +21,7 @@ struct flow_ledger {
     Real gross_volume = 0;    ///< sum of |q dt| and |dV| in the last step, m^3: the scale of mass_residual
     /// Last step: sum of (V dp / K_f + dV - dW) over the pores, less the inflow from reservoirs, m^3; rounding only.
     Real mass_residual = 0;
-    /// \name New meshes (carry_fluid())
+    /// \name New meshes (transfer_fluid())
     /// \{
     long long remeshes = 0;    ///< how many
     Real remesh_energy = 0;    ///< stored energy that they added, J

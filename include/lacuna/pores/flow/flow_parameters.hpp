@@ -22,10 +22,10 @@ struct flow_parameters {
     double minimum_volume_fraction = 1e-3;
     double minimum_pressure = -std::numeric_limits<double>::infinity(); ///< the fluid tears below, Pa; <= 0
     double initial_pressure = 0; ///< on top of the network's own, Pa; nowhere below minimum_pressure
-    /// Of the run, s: throats through which practically nothing passes within it are left out, see skip_idle_throats(); > 0,
+    /// Of the run, s: throats through which practically nothing passes within it are left out, see deactivate_slow_throats(); > 0,
     /// infinite: none is. It does not depend on how a run is cut into calls of run().
     double duration = std::numeric_limits<double>::infinity();
-    double skip_ratio = 1e6; ///< see skip_idle_throats(); > 0, infinity to skip none
+    double skip_ratio = 1e6; ///< see deactivate_slow_throats(); > 0, infinity to skip none
     /// Flow steps within one step, between which the change of volume is spread evenly; 0: as many as are safe.
     int substeps = 1;
     /// Fluid flows through throats in one of so many steps of a simulation, for the time of all of them. In the others

@@ -23,7 +23,7 @@ Real flow_critical_time_step(pore_network<Real, Dim> const& net, double bulk_mod
     for (std::size_t i = 0; i < net.pores(); ++i) {
         double conductance = 0;
         net.throats_of.for_each(i, [&](std::size_t t, int) {
-            if (!net.idle[t]) conductance += double(net.conductance[t]);
+            if (!net.inactive[t]) conductance += double(net.conductance[t]);
         });
         if (conductance > 0) limit = std::min(limit, double(net.volume[i]) / (bulk_modulus * conductance));
     }

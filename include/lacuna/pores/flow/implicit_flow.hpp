@@ -115,13 +115,13 @@ public:
         }
         this->template begin_step<WithLedger>();
         bool const flowing = this->flows() && dt > Real(0);
-        this->keep_forces(false);
+        this->set_force_retention(false);
         if (flowing) {
-            this->measure(place.data(), threads);
+            this->update_geometry(place.data(), threads);
             this->template compute_flows<true>(place.data(), normal_forces, threads);
             this->template take_substeps<WithLedger>(
                 count_substeps(), dt, threads, [&](bool, Real part, Real share) { solve_flows(part, share); });
-            this->press(tractions, threads);
+            this->apply_pressures(tractions, threads);
         } else {
             this->template advance_pressures<true, WithLedger>(place.data(), dt, Real(1), false, threads, tractions);
         }
@@ -184,11 +184,11 @@ private:
             pressure_[i] = double(net.pressure[i]);
         }
         for (std::size_t t = 0; t < net.open_throats(); ++t)
-            system_.leak()[t] = net.idle[t] ? 0.0 : dt * double(net.conductance[t]);
+            system_.leak()[t] = net.inactive[t] ? 0.0 : dt * double(net.conductance[t]);
         for (auto const& f : this->feed_.pores())
             if (holds(f)) pressure_[f.pore] = net.sources[f.source].value;
         for (std::size_t t = 0; t < net.open_throats(); ++t)
-            flow_[t] = net.idle[t] ? 0.0 : double(net.conductance[t]) * (far_pressure(t) - pressure_[near(t)]);
+            flow_[t] = net.inactive[t] ? 0.0 : double(net.conductance[t]) * (far_pressure(t) - pressure_[near(t)]);
         system_.prepare(this->parameters_.factorisation_tolerance);
         double const tolerance = this->parameters_.solver_tolerance;
         left_ = left_over(dt, double(share));
@@ -199,7 +199,7 @@ private:
             system_.solve(residual_, change_, 0.1 * tolerance * scale_);
             for (std::size_t i = 0; i < net.pores(); ++i) pressure_[i] += change_[i];
             for (std::size_t t = 0; t < net.open_throats(); ++t) {
-                if (net.idle[t]) continue;
+                if (net.inactive[t]) continue;
                 double const far = t < net.interior_throats ? change_[std::size_t(net.throat_pore[1][t])] : 0.0;
                 flow_[t] += double(net.conductance[t]) * (far - change_[near(t)]);
             }

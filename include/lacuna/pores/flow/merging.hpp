@@ -117,7 +117,7 @@ public:
             double sum = 0;
             net.throats_of.for_each(p, [&](std::size_t t, int side) {
                 auto const other = net.throat_pore[std::size_t(1 - side)][t];
-                if (!net.idle[t] && (other < 0 || label_[std::size_t(other)] != label_[p]))
+                if (!net.inactive[t] && (other < 0 || label_[std::size_t(other)] != label_[p]))
                     sum += double(net.conductance[t]);
             });
             return sum;

@@ -39,7 +39,7 @@ record<T> load_body(T const* place, std::int32_t index) noexcept {
 /// Places of the particles index[0..W), turned: result[l][k] is number l of the record of particle index[k].
 template <class T, int W>
 std::array<pack<T, W>, 4> load_bodies(T const* place, std::int32_t const* index) noexcept {
-    return turn_records<T, W>([&](int k) { return load_body(place, index[k]); });
+    return transpose_load<T, W>([&](int k) { return load_body(place, index[k]); });
 }
 
 /// W numbers that are kept in single precision.

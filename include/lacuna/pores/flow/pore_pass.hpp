@@ -7,7 +7,7 @@
 #include <limits>
 #include <type_traits>
 
-#include <lacuna/core/fetch.hpp>
+#include <lacuna/core/prefetch.hpp>
 #include <lacuna/core/pack.hpp>
 #include <lacuna/core/points.hpp>
 #include <lacuna/core/records.hpp>
@@ -50,25 +50,25 @@ public:
     void build(pore_network<Real, Dim>& net, Real minimum_share) {
         packs_ = (net.pores() + width - 1) / width;
         minimum_share_ = minimum_share;
-        set_fillers(net);
+        set_padding(net);
     }
 
     /// Gives what fills up the last pack its values; for a network that comes from elsewhere.
-    void set_fillers(pore_network<Real, Dim>& net) const noexcept {
-        Real const volume = minimum_share_ * filler_size;
-        net.volume.set_fillers(volume);
-        net.old_volume.set_fillers(volume);
-        net.pressure.set_fillers(Real(0));
-        if (!net.vapour.empty()) net.vapour.set_fillers(Real(0));
+    void set_padding(pore_network<Real, Dim>& net) const noexcept {
+        Real const volume = minimum_share_ * padding_size;
+        net.volume.set_padding(volume);
+        net.old_volume.set_padding(volume);
+        net.pressure.set_padding(Real(0));
+        if (!net.vapour.empty()) net.vapour.set_padding(Real(0));
         if (net.bare()) return;
-        net.size.set_fillers(filler_size);
-        for (auto& corner : net.corner) corner.set_fillers(corner[net.pores() - 1]);
+        net.size.set_padding(padding_size);
+        for (auto& corner : net.corner) corner.set_padding(corner[net.pores() - 1]);
     }
 
     int chunks() const noexcept { return int((packs_ + chunk_packs - 1) / chunk_packs); }
 
     /// Measures the pores of one chunk anew: their volumes, and the forces on their corners for 1 Pa.
-    [[gnu::noinline, gnu::flatten]] void measure(int chunk, pore_network<Real, Dim>& net, Real const* place,
+    [[gnu::noinline, gnu::flatten]] void update_geometry(int chunk, pore_network<Real, Dim>& net, Real const* place,
                                                  Real body_thickness, forces& exerted) const noexcept {
         using lanes = pack<Real, width>;
         lanes thickness(body_thickness), share(minimum_share_), zero(Real(0));
@@ -83,8 +83,8 @@ public:
         }
     }
 
-    /// Turns the forces for 1 Pa, as measure() left them, into those of the pressures.
-    [[gnu::noinline, gnu::flatten]] void press(int chunk, pore_network<Real, Dim> const& net,
+    /// Turns the forces for 1 Pa, as update_geometry() left them, into those of the pressures.
+    [[gnu::noinline, gnu::flatten]] void apply_pressures(int chunk, pore_network<Real, Dim> const& net,
                                                forces& exerted) const noexcept {
         using lanes = pack<Real, width>;
         std::size_t const first = std::size_t(chunk) * chunk_packs, end = std::min(first + chunk_packs, packs_);
@@ -140,7 +140,7 @@ public:
             if constexpr (Moves) {
                 // The other corners are those of pores before, most of them.
                 if (ahead > 0 && p + ahead < packs_)
-                    fetch_records<width>(place, net.corner[corners - 1].data() + slot + ahead * width,
+                    prefetch_records<width>(place, net.corner[corners - 1].data() + slot + ahead * width,
                                          body_column<Real>::stride);
                 shape = measure_pack(net, place, slot);
                 lanes free_volume = volume_of(shape) * thickness, floor = lanes::load(net.size.data() + slot) * share;
@@ -223,13 +223,13 @@ private:
         } else {
             for (std::size_t c = 0; c < corners; ++c) {
                 auto const& t = shape.traction[c];
-                store_turned<Real, width>(to + 4 * c * width,
+                transpose_store<Real, width>(to + 4 * c * width,
                                           {t[0] * push, t[1] * push, t[2] * push, pack<Real, width>(Real(0))});
             }
         }
     }
 
-    static constexpr Real filler_size = Real(1e30);
+    static constexpr Real padding_size = Real(1e30);
     std::size_t packs_ = 0;
     Real minimum_share_ = Real(1);
 };

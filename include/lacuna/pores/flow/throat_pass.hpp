@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include <lacuna/core/fetch.hpp>
+#include <lacuna/core/prefetch.hpp>
 #include <lacuna/core/pack.hpp>
 #include <lacuna/core/records.hpp>
 #include <lacuna/laws/aperture.hpp>
@@ -60,7 +60,7 @@ public:
             std::size_t const before = throats_;
             for (std::size_t t = p * width; t < (p + 1) * width; ++t) {
                 // Between a pore and itself nothing flows.
-                bool const passes = t < net.open_throats() && !net.idle[t];
+                bool const passes = t < net.open_throats() && !net.inactive[t];
                 far_[t] = net.throat_pore[passes && t < net.interior_throats ? 1 : 0][t];
                 throats_ += passes;
             }
@@ -123,7 +123,7 @@ public:
             if constexpr (Moves) {
                 // The other particles are those of throats before, most of them.
                 if (ahead > 0 && n + ahead < list.size())
-                    fetch_records<width>(place, net.throat_particle[1].data() + std::size_t(list[n + ahead]) * width,
+                    prefetch_records<width>(place, net.throat_particle[1].data() + std::size_t(list[n + ahead]) * width,
                                          body_column<Real>::stride);
                 auto [aperture, opening] = open<Aperture>(net, slot, place, normal_forces, parameters);
                 conductance = lanes::load(factor_.data() + slot) * opening;
@@ -209,7 +209,7 @@ private:
         difference_and_sum.v[3] = 1;
         std::int32_t const *i = net.throat_particle[k].data() + slot,
                            *j = net.throat_particle[(k + 1) % std::size_t(Dim)].data() + slot;
-        auto pair = turn_records<Real, width>([&](int lane) {
+        auto pair = transpose_load<Real, width>([&](int lane) {
             return detail::load_body(place, j[lane]) + detail::load_body(place, i[lane]) * difference_and_sum;
         });
         lanes squared = pair[0] * pair[0] + pair[1] * pair[1];
@@ -224,7 +224,7 @@ private:
                                                                pack<Real, width> far) noexcept {
         for (int k = 0; k < width; ++k) {
             std::size_t const t = slot + std::size_t(k);
-            if (net.drained(t) && !net.idle[t]) far.v[k] = net.reservoir_pressure(t);
+            if (net.drained(t) && !net.inactive[t]) far.v[k] = net.reservoir_pressure(t);
         }
         return far;
     }

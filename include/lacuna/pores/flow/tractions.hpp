@@ -31,7 +31,7 @@ std::array<vec<Real, Dim>, std::size_t(Dim) + 1> pore_tractions(pore_network<Rea
 }
 
 /// Energy stored in the compressed fluid, sum of V p^2 / 2 K_f, J.
-/// \param net whose fillers have no pressure; \param bulk_modulus K_f, Pa
+/// \param net whose padding have no pressure; \param bulk_modulus K_f, Pa
 template <class Real, int Dim>
 Real storage_energy(pore_network<Real, Dim> const& net, double bulk_modulus) noexcept {
     using lanes = pack<Real, native_width<Real>>;

@@ -11,7 +11,7 @@
 namespace lacuna {
 
 /// Array whose memory goes on to a whole number of packs, and at least one entry beyond size(): a loop over packs has no
-/// rest to treat apart. What lies beyond size() (the fillers) belongs to such loops and is seen by nothing else.
+/// rest to treat apart. What lies beyond size() (the padding) belongs to such loops and is seen by nothing else.
 template <class T>
 class padded_array {
 public:
@@ -31,7 +31,7 @@ public:
         data_.assign(padded(count), T(0));
         std::fill(begin(), end(), value);
     }
-    void set_fillers(T value) noexcept { std::fill(data_.begin() + std::ptrdiff_t(size_), data_.end(), value); }
+    void set_padding(T value) noexcept { std::fill(data_.begin() + std::ptrdiff_t(size_), data_.end(), value); }
 
     std::size_t size() const noexcept { return size_; }
     bool empty() const noexcept { return size_ == 0; }
@@ -44,7 +44,7 @@ public:
     T const* begin() const noexcept { return data(); }
     T const* end() const noexcept { return data() + size_; }
 
-    /// The same size and entries; fillers do not count.
+    /// The same size and entries; padding do not count.
     friend bool operator==(padded_array const& a, padded_array const& b) noexcept {
         return std::equal(a.begin(), a.end(), b.begin(), b.end());
     }

@@ -60,7 +60,7 @@ struct pore_network {
     padded_array<Real> aperture;    ///< a, m
     padded_array<Real> conductance; ///< C = k a^3 / l, m^3/(s Pa)
     padded_array<Real> flow;        ///< q of the last step, from pore [1] (or the reservoir) to pore [0], m^3/s
-    std::vector<std::uint8_t> idle; ///< 1 where the flow is skipped
+    std::vector<std::uint8_t> inactive; ///< 1 where the flow is skipped
     std::size_t interior_throats = 0;
     std::size_t drained_throats = 0;
     /// Of drained throats, the first of which is throat number interior_throats; see reservoir_pressure(),
@@ -93,7 +93,7 @@ struct pore_network {
     /// What a run changes; its shape is that of the receiver.
     template <class Archive>
     void serialize(Archive& ar) {
-        ar(volume, old_volume, pressure, vapour, aperture, conductance, flow, fixed_length{drained_pressure}, fixed_length{idle});
+        ar(volume, old_volume, pressure, vapour, aperture, conductance, flow, fixed_length{drained_pressure}, fixed_length{inactive});
         for (auto& source : sources) ar(source.value, source.volume, source.rate);
     }
 };
@@ -142,7 +142,7 @@ void finish(pore_network<Real, Dim>& net, std::vector<throat_record<Real, Dim>> 
     net.drained_source = connect_sources(net.sources, records);
     net.conductance.assign(records.size(), Real(0));
     net.flow.assign(records.size(), Real(0));
-    net.idle.assign(records.size(), 0);
+    net.inactive.assign(records.size(), 0);
     net.throats_of.build(net.throat_pore, pores);
     net.particles = particles;
 }

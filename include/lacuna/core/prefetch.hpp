@@ -17,13 +17,13 @@ inline constexpr std::size_t few_particles = 8192;
 inline constexpr std::size_t cache_line = 64;
 
 /// Asks for `bytes` from `at` on.
-inline void fetch(void const* at, std::size_t bytes) noexcept {
+inline void prefetch(void const* at, std::size_t bytes) noexcept {
     for (std::size_t b = 0; b < bytes; b += cache_line) __builtin_prefetch(static_cast<char const*>(at) + b);
 }
 
 /// Asks for what begins at base[stride * offset[0..W)].
 template <int W, class T, class Offset>
-void fetch_records(T const* base, Offset const* offset, std::size_t stride = 1) noexcept {
+void prefetch_records(T const* base, Offset const* offset, std::size_t stride = 1) noexcept {
     for (int k = 0; k < W; ++k) __builtin_prefetch(base + stride * std::size_t(offset[k]));
 }
 

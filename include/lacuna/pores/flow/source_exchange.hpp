@@ -17,7 +17,7 @@ namespace lacuna {
 /// The few pores that a flow_source acts on directly, and what has come through each source. One after the other, in
 /// the order of the sources: the same bits for any number of threads.
 template <class Real>
-class pore_feed {
+class source_exchange {
 public:
     struct fed_pore {
         std::size_t pore, source;
@@ -109,7 +109,7 @@ public:
     void count(pore_network<Real, Dim>& net, Real dt, bool flows) noexcept {
         if (!flows) return;
         for (std::size_t t = net.interior_throats; t < net.open_throats(); ++t)
-            if (!net.idle[t]) net.sources[std::size_t(net.throat_source(t))].volume += double(net.flow[t]) * double(dt);
+            if (!net.inactive[t]) net.sources[std::size_t(net.throat_source(t))].volume += double(net.flow[t]) * double(dt);
     }
 
     /// At the end of a step of dt [s] in which fluid flowed.

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <vector>
 
-#include <lacuna/core/fetch.hpp>
+#include <lacuna/core/prefetch.hpp>
 
 namespace lacuna {
 
@@ -14,7 +14,7 @@ namespace lacuna {
 /// chunk is the first to read, and what will be read when its own particles move. Bodies that do not fit into the cache
 /// would come one by one otherwise, each waited for: no processor foresees where a pair's second particle is. It changes
 /// no result.
-class read_ahead {
+class prefetcher {
 public:
     /// Lines that are asked for in equal shares, pack by pack.
     struct stream {
@@ -32,7 +32,7 @@ public:
         bool any = false; ///< whether to ask for anything
 
         /// To be called once a pack.
-        void fetch() noexcept {
+        void prefetch() noexcept {
             for (auto& s : streams)
                 for (std::size_t l = 0; l < s.lines_per_pack; ++l, s.at += cache_line) __builtin_prefetch(s.at);
         }
@@ -73,7 +73,7 @@ private:
             auto const look = [&](auto const& table) {
                 if (c >= table.chunks()) return;
                 for (std::size_t s = table.first_slot(c), last = table.first_slot(c + 1); s < last; ++s) {
-                    if (table.is_filler(s, particles)) continue;
+                    if (table.is_padding(s, particles)) continue;
                     auto const j = std::size_t(table.j(s));
                     if (j < end) reached = std::max(reached, j + 1);
                     if (count) ++distances_[j > first ? (j - first) * std::size_t(chunks) / particles : 0];

@@ -9,7 +9,7 @@
 #include <tuple>
 #include <vector>
 
-#include <lacuna/interactions/storage/force_places.hpp>
+#include <lacuna/interactions/storage/force_offsets.hpp>
 #include <lacuna/interactions/storage/pair_forces.hpp>
 
 namespace lacuna {
@@ -22,7 +22,7 @@ namespace lacuna {
 /// it, each half row of its chunk is as long as it has to be. The order follows the pairs alone: sums have the same
 /// bits for any number of threads.
 template <class Real, int Dim>
-class force_rows {
+class force_gather {
 public:
     static constexpr int chunk_particles = 128;
     static constexpr std::int32_t reals_per_pair = std::int32_t(4 * pair_forces<Real, Dim>::records_per_pair);
@@ -32,7 +32,7 @@ public:
     /// \param places of the forces of each table
     /// \param tables the pair tables whose places lie one after the other in the force column, then one zero
     template <class... Tables>
-    void build(std::size_t particles, std::array<force_places, sizeof...(Tables)> const& places, Tables const&... tables) {
+    void build(std::size_t particles, std::array<force_offsets, sizeof...(Tables)> const& places, Tables const&... tables) {
         std::size_t const chunks = (particles + chunk_particles - 1) / chunk_particles;
         degree_.assign(2 * chunks * chunk_particles, 0);
         auto const for_each = [&](auto const& visit) {
@@ -42,7 +42,7 @@ public:
                 for (int c = 0; c < tables.chunks(); ++c)
                     for (std::size_t p = tables.first_pack(c); p < tables.end_pack(c); ++p)
                         for (std::size_t k = 0, place = first + at(c, p); k < tables.width; ++k)
-                            if (std::size_t const s = p * tables.width + k; !tables.is_filler(s, particles))
+                            if (std::size_t const s = p * tables.width + k; !tables.is_padding(s, particles))
                                 visit(tables.i(s), tables.j(s), std::int32_t(place * tables.width + k) * reals_per_pair);
                 first += at.count();
             }(), 0)...};
@@ -111,12 +111,12 @@ private:
 };
 
 /// Sum of the pair forces on the particles of one chunk.
-/// \tparam Half entries in half a row where it is known at compile time, else 0; or force_rows::uneven
+/// \tparam Half entries in half a row where it is known at compile time, else 0; or force_gather::uneven
 template <class Real, int Dim, int Half = 0>
 class force_sum {
 public:
     using rec = record<Real>;
-    force_sum(force_rows<Real, Dim> const& rows, Real const* forces, int chunk) noexcept
+    force_sum(force_gather<Real, Dim> const& rows, Real const* forces, int chunk) noexcept
         : forces_(forces), row_(rows.rows(chunk)), starts_(Half < 0 ? rows.starts(chunk) : nullptr),
           half_(Half > 0 ? Half : rows.half_row(chunk)) {}
 

@@ -16,9 +16,9 @@
 
 namespace lacuna {
 
-/// What carry_fluid() did. The fluid content of a pore is V p / K_f - W, W its vapour: what the pressure holds beyond a
+/// What transfer_fluid() did. The fluid content of a pore is V p / K_f - W, W its vapour: what the pressure holds beyond a
 /// pore filled at zero pressure, as eq. 15 counts it.
-struct carried_fluid {
+struct transferred_fluid {
     std::size_t kept = 0;    ///< pores of both meshes
     std::size_t changed = 0; ///< pores of the new mesh alone
     std::size_t regions = 0; ///< of changed pores
@@ -158,48 +158,48 @@ void keep_sizes(pore_network<Real, 2> const& from, pore_network<Real, 2>& to) {
 ///        throats that it has in common with `from`, and what sources of the same name prescribe and have brought
 /// \param bulk_modulus K_f, Pa; \param minimum_pressure Pa
 template <class Real>
-carried_fluid carry_fluid(pore_network<Real, 2> const& from, pore_network<Real, 2>& to, points_view<Real, 2> points,
+transferred_fluid transfer_fluid(pore_network<Real, 2> const& from, pore_network<Real, 2>& to, points_view<Real, 2> points,
                           double bulk_modulus, double minimum_pressure) {
     using namespace detail;
     constexpr auto none = std::size_t(-1);
-    carried_fluid report;
+    transferred_fluid report;
     // Pores are in the order of their corners. Nodes of the regions: all old pores, then all new ones.
-    std::vector<std::size_t> twin(to.pores(), none), heir(from.pores(), none);
-    std::vector<changed_pore<Real>> gone, fresh;
+    std::vector<std::size_t> old_of_new(to.pores(), none), new_of_old(from.pores(), none);
+    std::vector<changed_pore<Real>> removed, added;
     std::size_t a = 0, b = 0;
     while (a < from.pores() || b < to.pores()) {
         bool const old_first = b == to.pores() || (a < from.pores() && corners(from, a) < corners(to, b));
         bool const new_first = a == from.pores() || (b < to.pores() && corners(to, b) < corners(from, a));
         if (old_first) {
-            gone.push_back(look_at(from, a++, points));
+            removed.push_back(look_at(from, a++, points));
         } else if (new_first) {
-            fresh.push_back(look_at(to, b++, points));
+            added.push_back(look_at(to, b++, points));
         } else {
             to.volume[b] = from.volume[a];
             to.old_volume[b] = from.old_volume[a];
             to.pressure[b] = from.pressure[a];
             if (!to.vapour.empty()) to.vapour[b] = from.vapour_of(a);
-            twin[b] = a;
-            heir[a++] = b++;
+            old_of_new[b] = a;
+            new_of_old[a++] = b++;
         }
     }
-    report.kept = to.pores() - fresh.size();
-    report.changed = fresh.size();
+    report.kept = to.pores() - added.size();
+    report.changed = added.size();
 
     std::size_t const offset = from.pores();
     std::vector<std::size_t> up(offset + to.pores());
     std::iota(up.begin(), up.end(), std::size_t(0));
     std::vector<double> area(to.pores(), 0), sum(to.pores(), 0);
     auto const by_low = [](auto const& p, auto const& q) { return p.low != q.low ? p.low < q.low : p.pore < q.pore; };
-    std::sort(gone.begin(), gone.end(), by_low);
-    std::sort(fresh.begin(), fresh.end(), by_low);
+    std::sort(removed.begin(), removed.end(), by_low);
+    std::sort(added.begin(), added.end(), by_low);
     Real widest(0);
-    for (auto const& p : gone) widest = max(widest, p.high - p.low);
+    for (auto const& p : removed) widest = max(widest, p.high - p.low);
     std::size_t start = 0;
-    for (auto const& q : fresh) {
-        while (start < gone.size() && gone[start].low + widest < q.low) ++start;
-        for (std::size_t k = start; k < gone.size() && gone[k].low <= q.high; ++k) {
-            auto const& p = gone[k];
+    for (auto const& q : added) {
+        while (start < removed.size() && removed[start].low + widest < q.low) ++start;
+        for (std::size_t k = start; k < removed.size() && removed[k].low <= q.high; ++k) {
+            auto const& p = removed[k];
             if (p.high < q.low) continue;
             Real const common = common_area(p.x, q.x);
             if (!(common > Real(1e-9) * min(p.area, q.area))) continue;
@@ -209,7 +209,7 @@ carried_fluid carry_fluid(pore_network<Real, 2> const& from, pore_network<Real, 
         }
     }
 
-    // What is left without a new pore goes to the neighbours, to theirs if they are gone as well.
+    // What is left without a new pore goes to the neighbours, to theirs if they are removed as well.
     std::vector<std::uint8_t> has_new(up.size());
     auto const mark = [&] {
         std::fill(has_new.begin(), has_new.end(), std::uint8_t(0));
@@ -219,13 +219,13 @@ carried_fluid carry_fluid(pore_network<Real, 2> const& from, pore_network<Real, 
     bool moved = true;
     while (moved) {
         moved = false;
-        for (auto const& p : gone) {
+        for (auto const& p : removed) {
             if (has_new[find_root(up, p.pore)]) continue;
             from.throats_of.for_each(p.pore, [&](std::size_t t, int side) {
                 auto const other = from.throat_pore[std::size_t(1 - side)][t];
                 if (other < 0) return;
                 auto const next =
-                    heir[std::size_t(other)] == none ? std::size_t(other) : offset + heir[std::size_t(other)];
+                    new_of_old[std::size_t(other)] == none ? std::size_t(other) : offset + new_of_old[std::size_t(other)];
                 if (find_root(up, next) == find_root(up, p.pore)) return;
                 unite(up, p.pore, next);
                 moved = true;
@@ -239,7 +239,7 @@ carried_fluid carry_fluid(pore_network<Real, 2> const& from, pore_network<Real, 
         bool real = false;
     };
     std::vector<region> regions(up.size());
-    for (auto const& p : gone) {
+    for (auto const& p : removed) {
         auto& r = regions[find_root(up, p.pore)];
         double const filled = double(from.old_volume[p.pore]) * double(from.pressure[p.pore]);
         double const vapour = bulk_modulus * double(from.vapour_of(p.pore));
@@ -248,7 +248,7 @@ carried_fluid carry_fluid(pore_network<Real, 2> const& from, pore_network<Real, 
         r.old_volume += double(from.old_volume[p.pore]);
         r.real = true;
     }
-    for (auto const& q : fresh) regions[find_root(up, offset + q.pore)].real = true;
+    for (auto const& q : added) regions[find_root(up, offset + q.pore)].real = true;
     std::vector<std::size_t> touched;
     for (std::size_t q = 0; q < to.pores(); ++q) {
         auto& r = regions[find_root(up, offset + q)];
@@ -256,7 +256,7 @@ carried_fluid carry_fluid(pore_network<Real, 2> const& from, pore_network<Real, 
         touched.push_back(q);
         double const volume = double(to.old_volume[q]);
         double pressure = area[q] > 0 ? sum[q] / area[q] : 0;
-        if (twin[q] != none) { // a neighbour of a region that has no new pores
+        if (old_of_new[q] != none) { // a neighbour of a region that has no new pores
             pressure = double(to.pressure[q]);
             double const vapour = bulk_modulus * double(to.vapour_of(q));
             r.content += volume * pressure - vapour;

@@ -6,29 +6,29 @@
 #include <cstddef>
 #include <cstdint>
 
-#include <lacuna/interactions/storage/force_places.hpp>
-#include <lacuna/interactions/storage/force_rows.hpp>
-#include <lacuna/interactions/storage/read_ahead.hpp>
+#include <lacuna/interactions/storage/force_offsets.hpp>
+#include <lacuna/interactions/storage/force_gather.hpp>
+#include <lacuna/interactions/storage/prefetcher.hpp>
 
 namespace lacuna {
 
 LACUNA_BEGIN_PACKS
 /// The forces of all pairs: where they are kept, and how they are summed on the particles.
 template <class Real, int Dim>
-class force_store {
+class force_buffer {
 public:
-    static constexpr int chunk_particles = force_rows<Real, Dim>::chunk_particles;
+    static constexpr int chunk_particles = force_gather<Real, Dim>::chunk_particles;
     static constexpr int width = native_width<Real>;
 
     /// Says how long forces are kept. Takes effect with the next build().
-    /// \param streaming nobody reads the force of a single pair: forces are kept no longer than it takes to sum them up,
+    /// \param transient nobody reads the force of a single pair: forces are kept no longer than it takes to sum them up,
     ///        chunk by chunk as they are evaluated, but for those that wait, see chunk_spans
     /// \param threads how many spans to make of the chunks, where there are enough of them; if not, it is one, and
     ///        forces are kept
     /// \return whether that is new
-    bool set_mode(bool streaming, int threads) noexcept {
-        bool const fresh = streaming != streaming_ || threads != threads_;
-        streaming_ = streaming;
+    bool set_force_retention(bool transient, int threads) noexcept {
+        bool const fresh = transient != transient_ || threads != threads_;
+        transient_ = transient;
         threads_ = threads;
         if (fresh) forces_.column = {}; // what it needs can be much less
         return fresh;
@@ -45,7 +45,7 @@ public:
     void build(std::size_t particles, Bonds const& bonds, Contacts const& contacts) {
         int const chunks = int((particles + chunk_particles - 1) / chunk_particles);
         spans_.build(chunks, threads_, particles, bonds, contacts);
-        again_ = streaming_ && spans_.count() == threads_;
+        again_ = transient_ && spans_.count() == threads_;
         places_[0].build(bonds, particles, spans_, again_);
         places_[1].build(contacts, particles, spans_, again_);
         rows_.build(particles, places_, bonds, contacts);
@@ -72,7 +72,7 @@ public:
     /// \name Places of bonds (Which = 0) and contacts (Which = 1)
     /// \{
     template <int Which, class Table>
-    force_places::row places(Table const& table, int chunk) const noexcept {
+    force_offsets::row places(Table const& table, int chunk) const noexcept {
         return places_[Which].of_chunk(table, chunk);
     }
     /// Where the places of a chunk begin.
@@ -88,8 +88,8 @@ public:
     /// Offset in column() of the force in a slot of a table; -1 when forces are not kept.
     template <int Which>
     std::int32_t find(int chunk, std::int32_t slot) const noexcept {
-        if (streaming_) return -1;
-        return std::int32_t(place_of<Which>(chunk, std::size_t(slot))) * force_rows<Real, Dim>::reals_per_pair;
+        if (transient_) return -1;
+        return std::int32_t(place_of<Which>(chunk, std::size_t(slot))) * force_gather<Real, Dim>::reals_per_pair;
     }
     /// \}
 
@@ -106,14 +106,14 @@ public:
         return std::int32_t(width + (Which == 0 ? 0 : bond_slots_)) + slot;
     }
 
-    /// Whether forces are not kept but for their sums: keep_sums() is due for each chunk before with_sums() is called.
-    bool streams() const noexcept { return again_; }
-    /// Keeps the sums of a chunk, for which the same holds as for with_fresh_sums(), until the next evaluation.
-    void keep_sums(int chunk, std::size_t particles) {
+    /// Whether forces are not kept but for their sums: keep_force_sums() is due for each chunk before for_force_sums() is called.
+    bool forces_are_transient() const noexcept { return again_; }
+    /// Keeps the sums of a chunk, for which the same holds as for for_fresh_force_sums(), until the next evaluation.
+    void keep_force_sums(int chunk, std::size_t particles) {
         constexpr std::size_t records = pair_forces<Real, Dim>::records_per_pair;
         std::size_t const first = std::size_t(chunk) * chunk_particles;
         int const count = int(std::min(particles - first, std::size_t(chunk_particles)));
-        with_fresh_sums(chunk, [&](auto const& sum) {
+        for_fresh_force_sums(chunk, [&](auto const& sum) {
             for (int k = 0; k < count; ++k) {
                 auto const total = sum(k);
                 if constexpr (Dim == 2) {
@@ -124,15 +124,15 @@ public:
             }
         });
     }
-    /// Makes room for keep_sums().
-    void prepare_sums(std::size_t particles) {
+    /// Makes room for keep_force_sums().
+    void prepare_force_sums(std::size_t particles) {
         std::size_t const records = pair_forces<Real, Dim>::records_per_pair * particles;
         if (sums_.size() != records) sums_.resize(records);
     }
     /// Calls use(sum) with the sum of pair forces on the particles of a chunk, once all pairs are evaluated.
     template <class Use>
-    void with_sums(int chunk, Use const& use) const {
-        if (!again_) return with_fresh_sums(chunk, use);
+    void for_force_sums(int chunk, Use const& use) const {
+        if (!again_) return for_fresh_force_sums(chunk, use);
         constexpr std::size_t records = pair_forces<Real, Dim>::records_per_pair;
         use([this, first = std::size_t(chunk) * chunk_particles](int k) {
             std::size_t const at = records * (first + std::size_t(k));
@@ -147,21 +147,21 @@ public:
     /// evaluated: those of the chunks up to and including this one, because a pair belongs to its lower-numbered
     /// particle. The usual numbers of pairs per particle have a loop of their own, of fixed length.
     template <class Use>
-    void with_fresh_sums(int chunk, Use const& use) const {
+    void for_fresh_force_sums(int chunk, Use const& use) const {
         switch (rows_.half_row(chunk)) {
         case 3: return use(force_sum<Real, Dim, 3>(rows_, forces_.of(0), chunk));
         case 4: return use(force_sum<Real, Dim, 4>(rows_, forces_.of(0), chunk));
         case 5: return use(force_sum<Real, Dim, 5>(rows_, forces_.of(0), chunk));
-        case force_rows<Real, Dim>::uneven:
-            return use(force_sum<Real, Dim, force_rows<Real, Dim>::uneven>(rows_, forces_.of(0), chunk));
+        case force_gather<Real, Dim>::uneven:
+            return use(force_sum<Real, Dim, force_gather<Real, Dim>::uneven>(rows_, forces_.of(0), chunk));
         default: return use(force_sum<Real, Dim>(rows_, forces_.of(0), chunk));
         }
     }
 
     /// What to ask the memory for during the evaluation of a chunk.
     template <class Store, class Bonds, class Contacts>
-    read_ahead::plan read_ahead_of(Store const& store, int chunk, Bonds const& bonds, Contacts const& contacts) const noexcept {
-        read_ahead::plan plan;
+    prefetcher::plan plan_prefetch(Store const& store, int chunk, Bonds const& bonds, Contacts const& contacts) const noexcept {
+        prefetcher::plan plan;
         if (!ahead_.pays()) return plan;
         auto const packs_of = [&](auto const& table) {
             return chunk < table.chunks() ? table.end_pack(chunk) - table.first_pack(chunk) : 0;
@@ -171,10 +171,10 @@ public:
         auto const own = std::size_t(chunk) * chunk_particles;
         plan.any = true;
         // In space a chunk's fresh particles lie anywhere: the loop asks for those of each pack.
-        plan.streams = {read_ahead::stream(store.bodies().data() + store.bodies().stride * first,
+        plan.streams = {prefetcher::stream(store.bodies().data() + store.bodies().stride * first,
                                            Dim == 2 ? store.bodies().stride * (end - first) * sizeof(Real) : 0, packs),
-                        read_ahead::stream(rows_.rows(chunk), rows_.bytes(chunk), packs),
-                        read_ahead::stream(store.inverse_masses() + own, chunk_particles * sizeof(Real), packs)};
+                        prefetcher::stream(rows_.rows(chunk), rows_.bytes(chunk), packs),
+                        prefetcher::stream(store.inverse_masses() + own, chunk_particles * sizeof(Real), packs)};
         return plan;
     }
 
@@ -194,14 +194,14 @@ private:
     }
 
     pair_forces<Real, Dim> forces_;
-    force_rows<Real, Dim> rows_;
-    read_ahead ahead_;
+    force_gather<Real, Dim> rows_;
+    prefetcher ahead_;
     chunk_spans spans_;
-    std::array<force_places, 2> places_;
+    std::array<force_offsets, 2> places_;
     record_column<Real> sums_;      // of the particles, while forces are not kept
     aligned_vector<Real> normals_;  // a pack of zeros, then by slot of the bonds, of the contacts
     std::size_t bond_slots_ = 0;
-    bool streaming_ = false, again_ = false, normals_kept_ = false;
+    bool transient_ = false, again_ = false, normals_kept_ = false;
     int threads_ = 1;
 };
 LACUNA_END_PACKS

@@ -4,13 +4,13 @@
 #include <cstdint>
 #include <vector>
 
-#include <lacuna/interactions/storage/read_ahead.hpp>
+#include <lacuna/interactions/storage/prefetcher.hpp>
 
 #include "catch.hpp"
 
 namespace {
 
-/// A pair table as read_ahead sees it: the second particles of each chunk's pairs.
+/// A pair table as prefetcher sees it: the second particles of each chunk's pairs.
 struct seconds {
     std::vector<std::vector<std::int32_t>> of_chunk;
 
@@ -27,17 +27,17 @@ struct seconds {
         }
         return -1;
     }
-    bool is_filler(std::size_t slot, std::size_t particles) const { return std::size_t(j(slot)) >= particles; }
+    bool is_padding(std::size_t slot, std::size_t particles) const { return std::size_t(j(slot)) >= particles; }
 };
 
 } // namespace
 
-TEST_CASE("read_ahead knows which particles a chunk is the first to read", "[interactions][read_ahead]") {
+TEST_CASE("prefetcher knows which particles a chunk is the first to read", "[interactions][prefetcher]") {
     std::size_t const many = 9000;
     // Fillers are pairs of particles that are none.
     seconds const bonds{{{3, 200}, {150, 9001}, {}, {700, 690}}};
     seconds const contacts{{{130}, {260, 90, 9001}, {10}, {8999}}};
-    lacuna::read_ahead ahead;
+    lacuna::prefetcher ahead;
     ahead.build(many, 4, bonds, contacts);
     REQUIRE(ahead.pays());
     // By hand: up to the largest second particle of the chunks so far, 200, 260, 260, 8999.
@@ -50,18 +50,18 @@ TEST_CASE("read_ahead knows which particles a chunk is the first to read", "[int
     }
 }
 
-TEST_CASE("read_ahead asks for nothing of a few particles", "[interactions][read_ahead]") {
-    lacuna::read_ahead ahead;
+TEST_CASE("prefetcher asks for nothing of a few particles", "[interactions][prefetcher]") {
+    lacuna::prefetcher ahead;
     ahead.build(1000, 1, seconds{{{1, 2, 999}}});
     CHECK_FALSE(ahead.pays());
 }
 
-TEST_CASE("read_ahead asks for every line of a stream within a chunk's packs", "[interactions][read_ahead]") {
+TEST_CASE("prefetcher asks for every line of a stream within a chunk's packs", "[interactions][prefetcher]") {
     // 1000 bytes are 16 lines: 4 packs take 4 each, 5 packs 4 (3.2), 100 packs 1, no pack none.
     char const data = 0;
-    CHECK(lacuna::read_ahead::stream(&data, 1000, 4).lines_per_pack == 4);
-    CHECK(lacuna::read_ahead::stream(&data, 1000, 5).lines_per_pack == 4);
-    CHECK(lacuna::read_ahead::stream(&data, 1000, 100).lines_per_pack == 1);
-    CHECK(lacuna::read_ahead::stream(&data, 0, 100).lines_per_pack == 0);
-    CHECK(lacuna::read_ahead::stream(&data, 1000, 0).lines_per_pack == 0);
+    CHECK(lacuna::prefetcher::stream(&data, 1000, 4).lines_per_pack == 4);
+    CHECK(lacuna::prefetcher::stream(&data, 1000, 5).lines_per_pack == 4);
+    CHECK(lacuna::prefetcher::stream(&data, 1000, 100).lines_per_pack == 1);
+    CHECK(lacuna::prefetcher::stream(&data, 0, 100).lines_per_pack == 0);
+    CHECK(lacuna::prefetcher::stream(&data, 1000, 0).lines_per_pack == 0);
 }

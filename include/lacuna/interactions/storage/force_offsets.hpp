@@ -46,7 +46,7 @@ private:
         for (int s = 0; s < count_; ++s)
             for (int c = begin(s); c < std::min(end(s), table.chunks()); ++c)
                 for (std::size_t slot = table.first_slot(c), last = slot + table.chunk_size(c); slot < last; ++slot) {
-                    if (table.is_filler(slot, particles)) continue;
+                    if (table.is_padding(slot, particles)) continue;
                     int const second = int(table.j(slot) / Table::chunk_particles);
                     if (second >= end(s)) waits_[std::size_t(second)] = 1;
                 }
@@ -60,11 +60,11 @@ private:
 /// as soon as their chunk is evaluated, a force is only kept until the last chunk that needs it, and its place is used
 /// again, which spares the memory the writing and fetching of forces that nobody reads. Chunks whose forces are needed
 /// much longer than others', because of a long bond or because a partner waits, have places of their own all the same.
-class force_places {
+class force_offsets {
 public:
-    /// \param streaming whether places are used again
+    /// \param transient whether places are used again
     template <class Table>
-    void build(Table const& table, std::size_t particles, chunk_spans const& spans, bool streaming) {
+    void build(Table const& table, std::size_t particles, chunk_spans const& spans, bool transient) {
         at_.resize(std::size_t(table.chunks()));
         uses_.assign(at_.size(), 0);
         // Packs in use are counted on from chunk to chunk: those to spare between them need no place.
@@ -74,7 +74,7 @@ public:
             in_use = end_of(table, c);
         }
         std::size_t window = 0;
-        if (streaming) {
+        if (transient) {
             find_uses(table, particles, spans);
             window = best_window(table, spans.count());
         }
@@ -84,7 +84,7 @@ public:
             count_ += window;
             for (int c = spans.begin(s), end = std::min(spans.end(s), table.chunks()); c < end; ++c) {
                 auto& at = at_[std::size_t(c)];
-                if (streaming && uses_[std::size_t(c)] <= window) {
+                if (transient && uses_[std::size_t(c)] <= window) {
                     at.begin = ring;
                     at.kept = window;
                 } else {
@@ -136,7 +136,7 @@ private:
             std::size_t most = std::max<std::size_t>(end - first, 1);
             if (spans.waits(c)) most = to_the_end;
             for (std::size_t s = first * table.width; s < end * table.width; ++s) {
-                if (table.is_filler(s, particles)) continue;
+                if (table.is_padding(s, particles)) continue;
                 int const second = int(table.j(s) / Table::chunk_particles);
                 most = spans.waits(second)
                            ? to_the_end
