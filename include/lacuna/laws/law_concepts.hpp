@@ -14,9 +14,9 @@
 #include <lacuna/laws/pair_motion.hpp>
 
 /// \file
-/// What a law of a pair must have. Each requirement is a concept of its own, so that a compiler names the one that a law
-/// does not meet. A formula is asked for plain numbers, for packs, as the step uses it, and for dual numbers, as the bound
-/// of the time step does.
+/// Requirements on a pair law. Each requirement is a separate concept, so a compiler names the one that a law violates.
+/// A formula must accept plain numbers, packs (the time step uses them) and dual numbers (the bound of the time step
+/// differentiates with them).
 
 namespace lacuna {
 
@@ -27,7 +27,7 @@ inline constexpr bool is_fixed_array = false;
 template <class T, std::size_t N>
 inline constexpr bool is_fixed_array<std::array<T, N>> = true;
 
-/// Whether a member consists of T: it is T, a vec of T or a plain aggregate of such.
+/// True if a member consists of T only: it is T, a vec of T, or a trivially copyable aggregate of such members.
 template <class Member, class T>
 constexpr bool consists_of() {
     if constexpr (std::is_same_v<Member, T> || (std::is_empty_v<Member> && std::is_class_v<Member>))
@@ -43,7 +43,7 @@ constexpr bool consists_of() {
         }))::value;
 }
 
-/// The packs with which a formula is asked.
+/// The scalar types, besides double, that a formula must accept.
 using law_pack = pack<double, native_width<double>>;
 using law_dual = dual<double, 2>;
 
@@ -63,7 +63,7 @@ concept law_history = requires {
     typename Law::template history<law_pack, Dim>;
     typename Law::template history<law_dual, Dim>;
 };
-/// The tables keep rows of T: a member of another type would be lost.
+/// The pair tables store rows of T: a member of another type would be lost.
 template <class Law>
 concept law_scalar_parameters = consists_of<typename Law::template parameters<law_pack>, law_pack>();
 template <class Law, int Dim>
@@ -76,7 +76,7 @@ template <class Law, int Dim, class T>
 concept law_initial = requires(T const& distance) {
     { Law::template initial<T, Dim>(distance, distance) } -> std::same_as<typename Law::template history<T, Dim>>;
 };
-/// The formula and each member of its answer.
+/// The formula exists, and each member of its response has the right type.
 template <class Law, int Dim, class T>
 concept law_evaluate = requires(typename Law::template parameters<T> const& parameters, pair_motion<T, Dim> const& motion,
                                 typename Law::template history<T, Dim> const& history) {
@@ -103,7 +103,7 @@ concept law_present_stiffness =
              typename Law::template history<T, Dim> const& history) {
         { Law::stiffness(parameters, motion, history) } -> std::convertible_to<T>;
     };
-/// One of the two forms of `stiffness`; see dashpot_stiffness().
+/// The law has at least one of the two forms of `stiffness`; see dashpot_stiffness().
 template <class Law, int Dim, class T>
 concept law_stiffness_form = law_present_stiffness<Law, Dim, T> || law_constant_stiffness<Law, T>;
 template <class Law, int Dim>
@@ -112,15 +112,17 @@ concept law_hand_over =
              vec<double, shear_dim<Dim>> const& shear) {
         { Law::hand_over(parameters, motion, 1.0, shear) } -> std::same_as<typename Law::template history<double, Dim>>;
     };
-/// Of laws that carry moments; see carries_moment.
+/// Applies to laws that carry moments only; see carries_moment.
 template <class Law, int Dim, class T>
 concept law_moments =
     !carries_moment<Law> || requires(typename Law::template parameters<T> const& parameters,
-                                     pair_motion<T, Dim> const& motion, pair_rotation<T, Dim> const& turn,
+                                     pair_motion<T, Dim> const& motion, pair_rotation<T, Dim> const& rotation,
                                      typename Law::template history<T, Dim> const& history) {
         { history.bending_moment } -> std::convertible_to<vec<T, rotation_dim<Dim>>>;
-        { Law::evaluate(parameters, motion, turn, history).bending_moment } -> std::convertible_to<vec<T, rotation_dim<Dim>>>;
-        { Law::evaluate(parameters, motion, turn, history).twisting_moment } -> std::convertible_to<T>;
+        {
+            Law::evaluate(parameters, motion, rotation, history).bending_moment
+        } -> std::convertible_to<vec<T, rotation_dim<Dim>>>;
+        { Law::evaluate(parameters, motion, rotation, history).twisting_moment } -> std::convertible_to<T>;
     };
 template <class Law, int Dim>
 concept law_rotational_stiffness =
@@ -140,26 +142,27 @@ concept pair_law = law_material<Law> && law_parameters<Law> && law_history<Law, 
 
 } // namespace detail
 
-/// A law of two particles in contact. It has
-///   - `material`: an aggregate of what one material contributes, with `validate(std::string const& name)`;
-///   - `parameters<T>`: an aggregate of T only, what the formula reads, made by `combine(material, material, thickness)`;
-///   - `history<T, Dim>`: an aggregate of T (and vec of T) only; a member `shear_force` turns with the pair;
-///     `initial<T, Dim>(distance, touching_distance)` is its state at zero force; while a member `touching_distance` is
-///     larger than the sum of the radii the pair stays in the table, else up to that sum and a skin;
+/// A law for two particles in contact. It has
+///   - `material`: an aggregate with the input values of one material, and `validate(std::string const& name)`;
+///   - `parameters<T>`: an aggregate of T only, the formula's input; made by `combine(material, material, thickness)`;
+///   - `history<T, Dim>`: an aggregate of T (and vec of T) only. `initial<T, Dim>(distance, touching_distance)` returns
+///     the history at zero force. The engine rotates a member `shear_force` with the pair. A pair stays in the table
+///     while a member `touching_distance` exceeds the sum of the radii; else it stays up to that sum plus a skin;
 ///   - `evaluate(parameters<T>, pair_motion<T, Dim>, history<T, Dim>) -> pair_response`: the formula;
-///   - `stiffness(parameters)`, the most that the tangent of the normal force becomes, or, of a law whose tangent grows with
-///     the overlap, `stiffness(parameters, pair_motion, history)`: see dashpot_stiffness() and require_stated_stiffness();
-///   - `hand_over(parameters, pair_motion, normal_force, shear_force)`: the state that carries on the given forces of a
-///     bond that has just failed in shear.
+///   - `stiffness(parameters)`: the largest tangent stiffness of the normal force, N/m. A law whose tangent grows with
+///     the overlap has `stiffness(parameters, pair_motion, history)` instead: see dashpot_stiffness() and
+///     require_stated_stiffness();
+///   - `hand_over(parameters, pair_motion, normal_force, shear_force)`: the history of a contact that takes over these
+///     forces from a bond that has just failed in shear.
 template <class Law, int Dim>
 concept contact_law = detail::pair_law<Law, Dim> && detail::law_hand_over<Law, Dim>;
 
-/// A law of two bonded particles: as a contact law without `hand_over`, and its answer says whether the bond fails.
+/// A law for two bonded particles: a contact law without `hand_over`. Its response says whether the bond fails.
 template <class Law, int Dim>
 concept bond_law = detail::pair_law<Law, Dim> && detail::law_broken<Law, Dim, double> && detail::law_broken<Law, Dim, detail::law_pack>;
 
 namespace detail {
-/// What a formula does to packs, so that one that cannot is refused where the law is named and not deep in the step.
+/// Instantiates a formula for packs, so that the compiler refuses a bad one at the law's slot and not deep in the step.
 template <class Law, int Dim, class T>
 void use_formula(typename Law::template parameters<T> const& parameters, pair_motion<T, Dim> const& motion,
                  typename Law::template history<T, Dim> const& history) {
