@@ -8,13 +8,13 @@
 #include <lacuna/core/scalar.hpp>
 
 /// \file
-/// Aperture laws: how wide the throat between two particles is, from what the particles do to each other.
-/// Each has `parameters` and one formula over a scalar type, aperture(p, normal_force, gap) in m;
-/// normal_force in N, positive in tension; gap = distance - r_i - r_j in m, negative where particles overlap.
+/// Aperture laws give the width of the throat between two particles from their normal force and gap. Each has
+/// `parameters` and one formula over a scalar type, aperture(p, normal_force, gap) in m. normal_force is in N, positive
+/// in tension; gap = distance - r_i - r_j is in m, negative where particles overlap.
 
 namespace lacuna {
 
-/// The same aperture for every throat, whatever its particles do.
+/// The same aperture for every throat at all times.
 struct constant_aperture {
     struct parameters {
         double aperture = 1e-8; ///< a, m; >= 0
@@ -35,8 +35,8 @@ struct constant_aperture {
 /// Continuous, and never 0 at a finite force.
 struct contact_force_aperture {
     struct parameters {
-        /// a_0, aperture at zero force, m; > 0. The width of cartilage's own pores, some 10 nm: no flow in a run of
-        /// nanoseconds.
+        /// a_0, aperture at zero force, m; > 0. The default is the width of the natural pores of cartilage, about 10
+        /// nm, through which nothing flows within nanoseconds.
         double residual_aperture = 1e-8;
         double half_force = 1e-4;  ///< F_0, compression that halves the aperture, N; > 0
         double gap_factor = 1.0;   ///< m, share of the gap that adds to the aperture; 0 to 1
@@ -62,15 +62,16 @@ struct contact_force_aperture {
 ///
 ///   a = h (a_r + w),   w = max(gap, 0)
 ///
-/// w is the crack's opening displacement, counted from where the discs touch, a_r the mechanical width that is left
-/// when it is shut, whatever presses on it. h is the hydraulic over the mechanical aperture, f^(-1/3) for the roughness
-/// factor f of Witherspoon, Wang, Iwai and Gale (1980, "Validity of cubic law for fluid flow in a deformable rock
-/// fracture", Water Resour. Res. 16, 1016): 1 for smooth plates, f = 1.04 to 1.65 in their tests. With the conductivity
-/// k = depth / (12 mu) eq. 14 is their cubic law, q = depth (a_r + w)^3 / (12 mu f) dp / l.
+/// w is the crack's opening displacement, counted from the position where the discs touch. a_r is the mechanical width
+/// that remains when the crack is shut, whatever the compression. h is the ratio of hydraulic to mechanical aperture.
+/// It is f^(-1/3) for the roughness factor f of Witherspoon, Wang, Iwai and Gale (1980, "Validity of cubic law for
+/// fluid flow in a deformable rock fracture", Water Resour. Res. 16, 1016): 1 for smooth plates, f = 1.04 to 1.65 in
+/// their tests. With the conductivity k = depth / (12 mu), the paper's eq. 14 is their cubic law, q = depth (a_r + w)^3
+/// / (12 mu f) dp / l.
 struct cubic_crack_aperture {
     struct parameters {
         double residual_aperture = 1e-8; ///< a_r, m; > 0
-        double hydraulic_factor = 1;     ///< h; > 0, <= 1
+        double hydraulic_factor = 1;     ///< h, 1; > 0, <= 1
 
         /// \throws std::invalid_argument naming field, value and rule.
         void validate(std::string const& name) const {
@@ -85,7 +86,7 @@ struct cubic_crack_aperture {
     }
 };
 
-/// Aperture that compression closes exponentially, down to a residual one:
+/// Aperture that compression reduces exponentially to a residual one:
 ///
 ///   under compression        a = a_inf + (a_0 - a_inf) exp(-|F_n| / F_d)
 ///   open or in tension       a = a_0 + m * gap      (gap counted from 0)
@@ -119,14 +120,14 @@ struct exponential_aperture {
     }
 };
 
-/// Section of a throat in space, the facet between three spheres, as a tube of its hydraulic radius:
+/// Conductance C of a throat in space, the facet between three spheres, as that of a tube with its hydraulic radius:
 ///
 ///   C = k s A R_h^2 / l,   k = 1 / (2 mu)
 ///
-/// A is what the spheres leave of the facet, R_h that area over the length of the arcs that bound it: 0 where they
-/// close it. A round tube has s = 1 (Hagen, Poiseuille). After B. Chareyre, A. Cortis, E. Catalano and E. Barthelemy
-/// (2012, "Pore-scale modeling of viscous flow and induced forces in dense sphere packings", Transp. Porous Media 94,
-/// 595), who take R_h from the walls of the two pores instead, and the distance between these for l.
+/// A is the area of the facet outside the spheres, 0 where they close it. R_h is that area over the length of the arcs
+/// that bound it. A round tube has s = 1 (Hagen, Poiseuille). After B. Chareyre, A. Cortis, E. Catalano and E.
+/// Barthelemy (2012, "Pore-scale modeling of viscous flow and induced forces in dense sphere packings", Transp. Porous
+/// Media 94, 595), who take R_h from the walls of the two pores instead, and l from the distance between the pores.
 struct hydraulic_section {
     struct parameters {
         double shape_factor = 1; ///< s; > 0
@@ -141,14 +142,14 @@ struct hydraulic_section {
     }
 };
 
-/// A law of the section of a throat in space, instead of its particles' pairs.
+/// A law for the section of a throat in space; it does not depend on the forces and gaps of particle pairs.
 template <class Law>
 concept throat_section_law = requires(typename Law::parameters const& p) {
     p.validate("aperture");
     { Law::opening(p, 1.0, 1.0) } -> std::convertible_to<double>;
 };
 
-/// What the flow policies ask of an aperture law.
+/// Requirements of the flow policies on an aperture law.
 template <class Law>
 concept aperture_law = throat_section_law<Law> || requires(typename Law::parameters const& p) {
     p.validate("aperture");

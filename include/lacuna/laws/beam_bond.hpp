@@ -24,13 +24,14 @@ namespace lacuna {
 ///   F_n / A + max |M +- V L / 2| R / I > sigma_n    breaks in tension: at the rim of an end, where |M| is largest
 ///   |V| / A + |M_t| R / J > sigma_s                 breaks in shear
 ///
-/// s is the slip in the middle. There shear and bending do not know of each other; at the contact point, e = d/2 - the
-/// lever arm of i away, they do: s = slip + e bend, and the moment that the engine asks for is M + e V. A cantilever of
-/// such bonds has the beam's own deflection, F L^3 / (3 E I) + F L / (kappa G A), for any number of them.
-/// Limits: small bending between two neighbours; no failure in compression and no buckling within a bond.
+/// s is the slip in the middle of the beam, where shear and bending are uncoupled. The engine works at the contact
+/// point, at the distance e = d/2 - (lever arm of i) from the middle. There they couple: s = slip + e bend, and the
+/// moment is M + e V. A cantilever of such bonds has the deflection of one beam, F L^3 / (3 E I) + F L / (kappa G A),
+/// for any number of bonds. Limits: small bending between two neighbours; no failure in compression and no buckling
+/// within a bond.
 struct beam_bond {
     static constexpr bool carries_moment = true;
-    /// Shear acts with the lever arms of the middle, whatever the radii.
+    /// In the bound of the time step, shear has the lever arm d/2 on both sides, whatever the radii.
     static constexpr bool shears_in_the_middle = true;
 
     /// What one material contributes.
@@ -39,9 +40,9 @@ struct beam_bond {
         double poisson_ratio = 0.25;                                       ///< nu, above -1 and at most 0.5
         double tensile_strength = std::numeric_limits<double>::infinity(); ///< sigma_n, Pa; infinite: never breaks
         double shear_strength = std::numeric_limits<double>::infinity();   ///< sigma_s, Pa
-        double radius_factor = 1; ///< R over the radius of the smaller particle; of a pair the smaller factor
-        /// kappa, share of the section that carries shear: 5/6 of a rectangle, 0.9 of a circle; infinite: Euler and
-        /// Bernoulli's beam, which does not shear. Of a pair the smaller one.
+        double radius_factor = 1; ///< R over the radius of the smaller particle, 1; a pair has the smaller factor
+        /// kappa, share of the section that carries shear, 1: 5/6 for a rectangle, 0.9 for a circle. Infinite gives
+        /// Euler and Bernoulli's beam without shear deformation. A pair has the smaller one.
         double shear_correction = std::numeric_limits<double>::infinity();
 
         /// \throws std::invalid_argument naming field, value and rule.
@@ -73,10 +74,11 @@ struct beam_bond {
         T twisting_moment;
     };
 
-    /// Half of the beam is of each material: moduli in series (harmonic mean); the smaller strength and radius.
+    /// Each material makes up half of the beam: moduli combine in series (harmonic mean). A pair has the smaller
+    /// strength and radius factor.
     static parameters<double> combine(material const& a, material const& b, double thickness) {
         auto const series = [](double x, double y) { return 2 / (1 / x + 1 / y); };
-        // A finite "never", of single precision too, keeps infinity times zero out of the formula.
+        // 1e30 means "never" and is finite in single precision, too: infinity would give infinity times zero.
         auto const weaker = [](double x, double y) { return min(min(x, y), 1e30); };
         auto const shear = [](material const& m) { return m.young_modulus / (2 * (1 + m.poisson_ratio)); };
         double const young = series(a.young_modulus, b.young_modulus), g = series(shear(a), shear(b));
@@ -89,8 +91,8 @@ struct beam_bond {
                 thickness};
     }
 
-    /// The parameters of a bond with values of its own.
-    /// \throws std::invalid_argument for stiffnesses: a beam's follow from its section and length
+    /// Returns the parameters of a bond whose values `own` replace those of its materials.
+    /// \throws std::invalid_argument for a stiffness in `own`: a beam's stiffness follows from its section and length
     template <int Dim>
     static parameters<double> with_values(parameters<double> p, bond_values const& own, double radius_i, double radius_j) {
         char const* const rule = "left out: a beam's stiffness follows from its section";
@@ -102,7 +104,7 @@ struct beam_bond {
         return p;
     }
 
-    /// A bond made at `distance`, without force and moment.
+    /// History of a bond made at `distance`, without force and moment.
     template <class T, int Dim>
     static history<T, Dim> initial(T distance, T /*touching_distance*/) {
         return {distance, {}, {}, T(0)};
@@ -119,29 +121,30 @@ struct beam_bond {
 
     template <class T, int Dim>
     static moment_response<T, Dim, history<T, Dim>> evaluate(parameters<T> const& p, pair_motion<T, Dim> const& m,
-                                                             pair_rotation<T, Dim> const& turn, history<T, Dim> const& h) {
+                                                             pair_rotation<T, Dim> const& rotation,
+                                                             history<T, Dim> const& h) {
         T r = p.radius_factor * min(m.radius_i, m.radius_j);
         T area = smaller_particle_area::area<Dim>(r, r, p.thickness);
         T length = h.rest_distance;
         T axial = p.young_modulus * area / length;
-        auto turning = rotational_stiffness<Dim>(p, m.radius_i, m.radius_j, length);
+        auto rotational = rotational_stiffness<Dim>(p, m.radius_i, m.radius_j, length);
         T slender = gyration<Dim, T>() * r * r / (length * length); // I / (A L^2)
         T across = T(value_t<T>(12.0)) * axial * slender / (T(1) + T(value_t<T>(12.0)) * p.shear_compliance * slender);
         T off = T(value_t<T>(0.5)) * m.distance * (m.radius_j - m.radius_i) / (m.radius_i + m.radius_j);
 
         T normal = axial * (m.distance - h.rest_distance);
-        auto shear = h.shear_force + (m.slip + swing(turn.bend, turn.normal) * off) * across;
-        auto bending = h.bending_moment + turn.bend * turning.bending;
-        T twisting = h.twisting_moment + turn.twist * turning.twisting;
-        auto arm = moment_of(shear, turn.normal);
+        auto shear = h.shear_force + (m.slip + swing(rotation.bend, rotation.normal) * off) * across;
+        auto bending = h.bending_moment + rotation.bend * rotational.bending;
+        T twisting = h.twisting_moment + rotation.twist * rotational.twisting;
+        auto arm = moment_of(shear, rotation.normal);
         auto half = arm * (T(value_t<T>(0.5)) * m.distance);
-        // The rim's stress times A: A R / I is 3 / R in the plane and 4 / R in space, A R / J is 2 / R.
+        // The stress at the rim times A: A R / I is 3 / R in the plane and 4 / R in space, A R / J is 2 / R.
         T at_rim = normal + max(norm(bending + half), norm(bending - half)) * T(value_t<T>(Dim == 2 ? 3.0 : 4.0)) / r;
         T along_rim = norm(shear) + abs(twisting) * T(value_t<T>(2.0)) / r;
         auto failure = box_envelope::check_strength(at_rim, along_rim, p.tensile_strength * area, p.shear_strength * area);
         T stored = T(value_t<T>(0.5)) * (normal * normal / axial + squared_norm(shear) / across +
-                                         squared_norm(bending) / turning.bending);
-        if constexpr (Dim == 3) stored = stored + T(value_t<T>(0.5)) * twisting * twisting / turning.twisting;
+                                         squared_norm(bending) / rotational.bending);
+        if constexpr (Dim == 3) stored = stored + T(value_t<T>(0.5)) * twisting * twisting / rotational.twisting;
         return {{{normal, shear, {h.rest_distance, shear, bending, twisting}, stored, T(0)},
                  failure.broken,
                  failure.in_tension},
@@ -167,16 +170,16 @@ private:
     static T gyration() {
         return T(value_t<T>(Dim == 2 ? 1.0 / 3 : 0.25));
     }
-    /// Displacement across the normal per metre along it, of a turn.
+    /// Displacement across the normal due to a rotation, per metre along the normal.
     template <class T>
-    static vec<T, 1> swing(vec<T, 1> const& turned, vec<T, 2> const&) {
-        return turned;
+    static vec<T, 1> swing(vec<T, 1> const& bend, vec<T, 2> const&) {
+        return bend;
     }
     template <class T>
-    static vec<T, 3> swing(vec<T, 3> const& turned, vec<T, 3> const& normal) {
-        return cross(turned, normal);
+    static vec<T, 3> swing(vec<T, 3> const& bend, vec<T, 3> const& normal) {
+        return cross(bend, normal);
     }
-    /// Moment of a force across the normal, per metre along it.
+    /// Moment of a shear force per metre of lever arm along the normal, N.
     template <class T>
     static vec<T, 1> moment_of(vec<T, 1> const& shear, vec<T, 2> const&) {
         return shear;

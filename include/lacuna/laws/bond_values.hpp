@@ -9,24 +9,24 @@
 
 namespace lacuna {
 
-/// What one bond has of its own, in place of what its materials give. A bond law that takes such values has
-/// `with_values<Dim>(parameters<double>, bond_values, radius_i, radius_j) -> parameters<double>`, which refuses those
-/// that the law does not know.
+/// Values of a single bond that replace those of its materials. A bond law that accepts such values has
+/// `with_values<Dim>(parameters<double>, bond_values, radius_i, radius_j) -> parameters<double>`. It refuses values
+/// that the law does not use.
 struct bond_values {
     std::optional<double> normal_stiffness{};  ///< N/m, > 0
     std::optional<double> shear_stiffness{};   ///< N/m, >= 0
-    std::optional<double> bending_stiffness{}; ///< N m/rad, >= 0; of bonds with moments
-    std::optional<double> tensile_force{};     ///< at which the bond breaks in pure tension, N, >= 0
-    std::optional<double> shear_force{};       ///< at which the bond breaks in pure shear, N, >= 0
-    std::optional<double> strength_factor{};   ///< of the strengths that its materials give, >= 0
+    std::optional<double> bending_stiffness{}; ///< N m/rad, >= 0; only for bonds with moments
+    std::optional<double> tensile_force{};     ///< force that breaks the bond in pure tension, N, >= 0
+    std::optional<double> shear_force{};       ///< force that breaks the bond in pure shear, N, >= 0
+    std::optional<double> strength_factor{};   ///< multiplies the strengths of its materials, 1, >= 0
 
     bool empty() const noexcept {
         return !normal_stiffness && !shear_stiffness && !bending_stiffness && !tensile_force && !shear_force &&
                !strength_factor;
     }
-    /// Puts the bond's own strengths in place of its materials'.
-    /// \param area of its cross-section, m^2
-    /// \param tensile, shear strengths, Pa; kept below a finite "never"
+    /// Replaces the strengths of the materials by those of the bond.
+    /// \param area of the bond's cross-section, m^2
+    /// \param tensile, shear strengths, Pa; capped at 1e30, which stands for "never breaks"
     void set_strengths(double area, double& tensile, double& shear) const noexcept {
         double const factor = strength_factor.value_or(1.0);
         tensile = std::min(tensile_force ? *tensile_force / area : tensile * factor, 1e30);
@@ -43,7 +43,7 @@ struct bond_values {
     }
 };
 
-/// Whether a bond law takes values of single bonds.
+/// True if a bond law accepts values of single bonds.
 template <class Law, int Dim>
 inline constexpr bool takes_bond_values = requires(typename Law::template parameters<double> const& p, bond_values const& v) {
     Law::template with_values<Dim>(p, v, 1.0, 1.0);

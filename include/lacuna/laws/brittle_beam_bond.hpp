@@ -11,15 +11,16 @@
 
 namespace lacuna {
 
-/// The paper's bond with a share b of a parallel bond's stiffness against bending, and in space twisting (Potyondy and
-/// Cundall 2004, see parallel_bond): b = 0 is brittle_spring_bond, compression failure included. R = min(r_i, r_j).
+/// The paper's bond, which also resists bending, and in space twisting, with the share b of a parallel bond's stiffness
+/// (Potyondy and Cundall 2004, see parallel_bond). b = 0 gives brittle_spring_bond with its compression failure. R =
+/// min(r_i, r_j).
 ///
 ///   M_b <- M_b + b k_n R^2 / 3 * bend         in the plane; R^2 / 4 in space
 ///   M_t <- M_t + b k_s R^2 / 2 * twist        in space
 ///   F_n + 3 |M_b| / R > sigma_n A_c           breaks in tension; 4 |M_b| / R in space
 ///   |F_s| + 2 |M_t| / R > sigma_s A_c         breaks in shear
 ///
-/// The moment's part is the stress at the rim of the beam times its area, as there.
+/// As in parallel_bond, the moment terms are the stress at the rim of the beam times its area.
 struct brittle_beam_bond {
     static constexpr bool carries_moment = true;
 
@@ -29,7 +30,7 @@ struct brittle_beam_bond {
         double shear_stiffness = 1e6;                                      ///< k_s, N/m
         double tensile_strength = std::numeric_limits<double>::infinity(); ///< sigma_n, Pa; infinite: never breaks
         double shear_strength = std::numeric_limits<double>::infinity();   ///< sigma_s, Pa
-        double bending_ratio = 1; ///< b, share of a parallel bond's stiffness against turning; of a pair the smaller
+        double bending_ratio = 1; ///< b, share of a parallel bond's rotational stiffness, 1; a pair has the smaller one
 
         /// \throws std::invalid_argument naming field, value and rule.
         void validate(std::string const& name) const {
@@ -59,7 +60,7 @@ struct brittle_beam_bond {
         return {brittle_spring_bond::combine(a.spring(), b.spring(), thickness), min(a.bending_ratio, b.bending_ratio)};
     }
 
-    /// The parameters of a bond with values of its own.
+    /// Returns the parameters of a bond whose values `own` replace those of its materials.
     template <int Dim>
     static parameters<double> with_values(parameters<double> p, bond_values const& own, double radius_i, double radius_j) {
         bond_values springs = own;
@@ -72,7 +73,7 @@ struct brittle_beam_bond {
         return p;
     }
 
-    /// A bond made at `distance`, without force and moment.
+    /// History of a bond made at `distance`, without force and moment.
     template <class T, int Dim>
     static history<T, Dim> initial(T distance, T /*touching_distance*/) {
         return {distance, {}, {}, T(0)};
@@ -91,13 +92,14 @@ struct brittle_beam_bond {
 
     template <class T, int Dim>
     static moment_response<T, Dim, history<T, Dim>> evaluate(parameters<T> const& p, pair_motion<T, Dim> const& m,
-                                                             pair_rotation<T, Dim> const& turn, history<T, Dim> const& h) {
+                                                             pair_rotation<T, Dim> const& rotation,
+                                                             history<T, Dim> const& h) {
         auto spring = brittle_spring_bond::evaluate<T, Dim>(p.spring, m, {h.rest_distance, h.shear_force});
         T r = min(m.radius_i, m.radius_j);
         T area = smaller_particle_area::area<Dim>(m.radius_i, m.radius_j, p.spring.thickness);
         auto k = rotational_stiffness<Dim>(p, m.radius_i, m.radius_j);
-        auto bending = h.bending_moment + turn.bend * k.bending;
-        T twisting = h.twisting_moment + turn.twist * k.twisting;
+        auto bending = h.bending_moment + rotation.bend * k.bending;
+        T twisting = h.twisting_moment + rotation.twist * k.twisting;
         T at_rim = spring.normal_force + norm(bending) * T(value_t<T>(Dim == 2 ? 3.0 : 4.0)) / r;
         T along_rim = norm(spring.shear_force) + abs(twisting) * T(value_t<T>(2.0)) / r;
         auto failure =
@@ -125,18 +127,18 @@ struct brittle_beam_bond {
         return p.spring.normal_stiffness;
     }
 
-    /// The compression at which the bond gives way without end, N.
+    /// The compressive force at which the bond yields, N. It carries no more than this.
     template <int Dim, class T>
     static T compressive_limit(parameters<T> const& p, T radius_i, T radius_j) {
         return brittle_spring_bond::compressive_limit<Dim>(p.spring, radius_i, radius_j);
     }
 
 private:
-    /// a / k, and 0 for a spring that is not there.
+    /// a / k, and 0 for a spring without stiffness.
     template <class T>
     static T per(T const& a, T const& k) {
-        auto there = k > T(0);
-        return select(there, a / select(there, k, T(1)), T(0));
+        auto resists = k > T(0);
+        return select(resists, a / select(resists, k, T(1)), T(0));
     }
 };
 

@@ -22,9 +22,9 @@ struct smaller_particle_area {
     }
 };
 
-/// What an envelope has beside its check_strength(), when it needs no numbers of its own.
+/// Base of an envelope that has no parameters: everything but check_strength().
 struct plain_envelope {
-    static constexpr bool yields_in_compression = true; ///< under compression the force stays at the tensile limit
+    static constexpr bool yields_in_compression = true; ///< a compressive force is capped at the tensile limit
     struct material {
         void validate(std::string const&) const {}
     };
@@ -38,9 +38,9 @@ struct plain_envelope {
     };
 };
 
-/// The safety zone of the paper's Fig. 4: a rectangle. Beyond the tensile limit or the shear limit the bond
-/// breaks, and where both are exceeded in one step, in the mode whose limit is exceeded by the larger ratio.
-/// Under compression the force stays at the tensile limit.
+/// The safety zone of the paper's Fig. 4: a rectangle. The bond breaks beyond the tensile limit or the shear limit. If
+/// one step exceeds both, the mode with the larger ratio of force to limit counts. A compressive force is capped at the
+/// tensile limit.
 struct box_envelope : plain_envelope {
     template <class T>
     static failure<T> check_strength(parameters<T> const&, T normal, T shear, T tensile_limit, T shear_limit) {
@@ -55,17 +55,17 @@ struct box_envelope : plain_envelope {
     }
 };
 
-/// Mohr and Coulomb's line with a tension cut-off (Coulomb 1776, Mohr 1900; the cut-off after Paul 1961, J. Appl. Mech. 28,
-/// 259): the shear strength is the cohesion, and compression adds to it.
+/// Mohr and Coulomb's line with a tension cut-off (Coulomb 1776, Mohr 1900; the cut-off after Paul 1961, J. Appl. Mech.
+/// 28, 259): the shear strength is the cohesion, and compression adds to it.
 ///
 ///   F_n > min(sigma_n, c / tan phi) A_c       breaks in tension
 ///   |F_s| > c A_c - F_n tan phi               breaks in shear
 ///
-/// Of both in one step the mode whose limit is exceeded by the larger ratio. Nothing fails in pure compression.
+/// If one step exceeds both, the mode with the larger ratio of force to limit counts. Pure compression breaks no bond.
 struct mohr_coulomb_envelope {
     static constexpr bool yields_in_compression = false;
     struct material {
-        double internal_friction = 0.5; ///< tan phi, 1; of a pair the smaller one
+        double internal_friction = 0.5; ///< tan phi, 1; a pair has the smaller one
 
         /// \throws std::invalid_argument naming field, value and rule.
         void validate(std::string const& name) const {
@@ -74,7 +74,7 @@ struct mohr_coulomb_envelope {
     };
     template <class T>
     struct parameters {
-        T internal_friction, apex; // tan phi; tensile strength at most, over the cohesion
+        T internal_friction, apex; // tan phi; largest tensile strength over the cohesion
     };
     static parameters<double> combine(material const& a, material const& b) {
         double const slope = min(a.internal_friction, b.internal_friction);
@@ -87,18 +87,18 @@ struct mohr_coulomb_envelope {
     }
 };
 
-/// Linear springs in tension, compression and shear, breaking at an envelope's criterion: the paper's (eq. 10, Fig. 4)
-/// with box_envelope.
+/// Linear springs in tension, compression and shear, which break when an envelope is exceeded. With box_envelope this
+/// is the paper's bond (eq. 10, Fig. 4).
 ///
 ///   F_n = k_n * (d - L)                       L: distance at which the bond was made
 ///   F_s <- F_s + k_s * slip
 ///   F_n >  sigma_n A_c   breaks in tension
 ///   |F_s| > sigma_s A_c  breaks in shear
-///   F_n < -sigma_n A_c   compression failure, of envelopes that crush: the force stays at the limit, the bond remains
-///                        (L follows)
+///   F_n < -sigma_n A_c   compression failure, if the envelope yields in compression: the force stays at the limit, the
+///                        bond remains, L shortens
 ///
-/// The normal force is the total form of eq. 10's sum of increments: the two are equal up to rounding, also
-/// after compression failure, because the same L carries the plastic shortening.
+/// The normal force follows from the total elongation, not from eq. 10's sum of increments. The two are equal up to
+/// rounding, also after compression failure, because L contains the plastic shortening.
 template <class Envelope = box_envelope, class Area = smaller_particle_area>
 struct brittle_spring_bond_with {
     /// What one material contributes (Table 1).
@@ -106,8 +106,8 @@ struct brittle_spring_bond_with {
         double normal_stiffness = 1e6;                                    ///< k_n, N/m
         double shear_stiffness = 1e6;                                     ///< k_s, N/m
         double tensile_strength = std::numeric_limits<double>::infinity(); ///< sigma_n, Pa; infinite: never breaks
-        double shear_strength = std::numeric_limits<double>::infinity();   ///< sigma_s, Pa; Mohr and Coulomb's: cohesion
-        [[no_unique_address]] typename Envelope::material envelope{};      ///< what the envelope asks for besides
+        double shear_strength = std::numeric_limits<double>::infinity();   ///< sigma_s, Pa; Mohr-Coulomb: cohesion
+        [[no_unique_address]] typename Envelope::material envelope{};      ///< further values that the envelope needs
 
         /// \throws std::invalid_argument naming field, value and rule.
         void validate(std::string const& name) const {
@@ -133,10 +133,10 @@ struct brittle_spring_bond_with {
         vec<T, shear_dim<Dim>> shear_force;
     };
 
-    /// Stiffness in series (harmonic mean), the smaller strength.
+    /// Stiffnesses combine in series (harmonic mean); a pair has the smaller strength.
     static parameters<double> combine(material const& a, material const& b, double thickness) {
         auto const series = [](double x, double y) { return x > 0 && y > 0 ? 2 / (1 / x + 1 / y) : 0.0; };
-        // A finite "never", of single precision too, keeps zero times infinity out of the formula.
+        // 1e30 means "never" and is finite in single precision, too: infinity would give zero times infinity.
         auto const weaker = [](double x, double y) { return min(min(x, y), 1e30); };
         double const normal = series(a.normal_stiffness, b.normal_stiffness);
         double const shear = series(a.shear_stiffness, b.shear_stiffness);
@@ -150,7 +150,7 @@ struct brittle_spring_bond_with {
                 Envelope::combine(a.envelope, b.envelope)};
     }
 
-    /// The parameters of a bond with values of its own.
+    /// Returns the parameters of a bond whose values `own` replace those of its materials.
     /// \throws std::invalid_argument for a stiffness against bending, which these springs do not have
     template <int Dim>
     static parameters<double> with_values(parameters<double> p, bond_values const& own, double radius_i, double radius_j) {
@@ -164,7 +164,7 @@ struct brittle_spring_bond_with {
         return p;
     }
 
-    /// A bond made at `distance`, without force.
+    /// History of a bond made at `distance`, without force.
     template <class T, int Dim>
     static history<T, Dim> initial(T distance, T /*touching_distance*/) {
         return {distance, {}};
@@ -197,7 +197,7 @@ struct brittle_spring_bond_with {
         return p.normal_stiffness;
     }
 
-    /// Of envelopes that crush: the compression at which the bond gives way without end, N.
+    /// The compressive force at which the bond yields, N. Only for envelopes that yield in compression.
     template <int Dim, class T>
     static T compressive_limit(parameters<T> const& p, T radius_i, T radius_j)
         requires(Envelope::yields_in_compression)
@@ -208,7 +208,7 @@ struct brittle_spring_bond_with {
 
 /// The paper's bond.
 using brittle_spring_bond = brittle_spring_bond_with<>;
-/// The same springs, breaking at Mohr and Coulomb's line with a tension cut-off.
+/// The same springs, which break at Mohr and Coulomb's line with a tension cut-off.
 using mohr_coulomb_bond = brittle_spring_bond_with<mohr_coulomb_envelope>;
 
 } // namespace lacuna

@@ -12,10 +12,11 @@
 
 /// \file
 /// Damping policies. Each has `parameters` and two formulas over a scalar type:
-///   pair_force(p, stiffness, mass_i, mass_j, normal_rate): force along the normal, positive in tension, N (where
+///   - pair_force(p, stiffness, mass_i, mass_j, normal_rate): force along the normal, positive in tension, N (where
 ///     acts_on_pairs is true);
-///   particle_force(p, force, velocity): what is added to one component of a particle's force (or torque); with
-///     `needs_inertia` also particle_force(p, force, velocity, inertia), and drag_rate(p): the drag over momentum, 1/s.
+///   - particle_force(p, force, velocity): the term that damping adds to one component of a particle's force, N, or
+///     torque, N m. A policy with `needs_inertia` also has particle_force(p, force, velocity, inertia), and
+///     drag_rate(p), the drag over the momentum, 1/s.
 
 namespace lacuna {
 
@@ -36,8 +37,8 @@ struct no_damping {
     }
 };
 
-/// Local non-viscous damping (Cundall 1987): a force against the motion, proportional to the unbalanced force,
-/// -alpha |F| sign(v), on each component. Bodies in steady motion are not slowed.
+/// Local non-viscous damping (Cundall 1987): each component gets a force against the motion, proportional to the
+/// unbalanced force, -alpha |F| sign(v). It does not slow particles in steady motion.
 struct local_damping {
     struct parameters {
         double factor = 0.7; ///< alpha, 0 to 1
@@ -57,8 +58,8 @@ struct local_damping {
 };
 
 /// Dashpot along the normal of each contact and bond, c = 2 ratio sqrt(k_n m_eff), m_eff = m_i m_j / (m_i + m_j).
-/// A contact's total normal force stays compressive: a rebounding pair separates when spring and dashpot
-/// together vanish, not when the overlap does (restitution of reference case 1b "zero force").
+/// A contact's total normal force stays compressive: a rebounding pair separates when the sum of spring and dashpot
+/// force vanishes, not when the overlap does (restitution of reference case 1b "zero force").
 struct viscous_damping {
     struct parameters {
         double ratio = 0.1; ///< fraction of critical damping, >= 0
@@ -77,13 +78,13 @@ struct viscous_damping {
     }
 };
 
-/// Dashpot along the normal that gives every collision the same coefficient of restitution e: the dashpot of
-/// viscous_damping with ratio -ln e / sqrt(ln^2 e + pi^2), which acts, and may pull, until the overlap has gone
+/// Dashpot along the normal that gives every collision the same coefficient of restitution e. It is the dashpot of
+/// viscous_damping with ratio -ln e / sqrt(ln^2 e + pi^2). It acts, and may pull, until the overlap is zero
 /// (restitution of reference case 1b "zero overlap"; Hertzian contacts: see hertz_mindlin).
 struct restitution_damping {
     struct parameters {
         double restitution = 1; ///< e, above 0 and at most 1
-        double ratio = 0;       ///< of critical damping, from e: see with_restitution()
+        double ratio = 0;       ///< fraction of critical damping that belongs to e: see with_restitution()
         void validate(std::string const& name) const {
             if (!(restitution > 0 && restitution <= 1)) refuse(name + ".restitution", restitution, "> 0 and <= 1");
             if (!(std::fabs(ratio - ratio_of(restitution)) <= 1e-12))
@@ -111,7 +112,8 @@ private:
     }
 };
 
-/// Local damping, a drag proportional to mass and velocity (and to moment of inertia and spin), and dashpots, together.
+/// The sum of local damping, dashpots, and a drag proportional to mass and velocity (and to moment of inertia and
+/// spin).
 struct combined_damping {
     struct parameters {
         double local = 0;   ///< factor of local_damping, 0 to 1
@@ -133,7 +135,7 @@ struct combined_damping {
                         T const& normal_rate) {
         return viscous_damping::pair_force({p.viscous}, stiffness, mass_i, mass_j, normal_rate);
     }
-    /// The part that does not depend on the inertia.
+    /// The term that does not depend on the inertia.
     template <class T>
     static T particle_force(parameters const& p, T const& force, T const& velocity) {
         return local_damping::particle_force({p.local}, force, velocity);
@@ -144,7 +146,7 @@ struct combined_damping {
     }
 };
 
-/// Whether a dashpot may pull at a contact that opens.
+/// True if a dashpot may pull at a contact that separates.
 template <class Policy>
 inline constexpr bool dashpot_pulls = requires { requires Policy::pulls; };
 
@@ -161,14 +163,14 @@ template <class Policy, class T>
 concept damping_particle_force = requires(typename Policy::parameters const& p, T const& value) {
     { Policy::particle_force(p, value, value) } -> std::convertible_to<T>;
 };
-/// Of policies with `needs_inertia`.
+/// Applies to policies with `needs_inertia` only.
 template <class Policy, class T>
 concept damping_inertial_force = !requires { requires Policy::needs_inertia; } ||
     requires(typename Policy::parameters const& p, T const& value) {
         { Policy::particle_force(p, value, value, value) } -> std::convertible_to<T>;
         { Policy::drag_rate(p) } -> std::convertible_to<double>;
     };
-/// Of policies with `acts_on_pairs`.
+/// Applies to policies with `acts_on_pairs` only.
 template <class Policy, class T>
 concept damping_pair_force = !requires { requires Policy::acts_on_pairs; } ||
     requires(typename Policy::parameters const& p, T const& value) {
@@ -178,9 +180,9 @@ template <class Policy, class T>
 concept damping_forces = damping_particle_force<Policy, T> && damping_inertial_force<Policy, T> && damping_pair_force<Policy, T>;
 } // namespace detail
 
-/// A damping policy, the slot filled by no_damping, local_damping and others. It has `parameters` with
-/// `validate(std::string const& name)`, the constants acts_on_pairs and acts_on_particles, and the formulas above, which are
-/// asked for plain numbers and for packs; pair_force() only where acts_on_pairs is true.
+/// Requirements on a damping policy, such as no_damping and local_damping. It has `parameters` with
+/// `validate(std::string const& name)`, the constants acts_on_pairs and acts_on_particles, and the formulas above.
+/// These must accept plain numbers and packs. pair_force() is needed only where acts_on_pairs is true.
 template <class Policy>
 concept damping_policy = detail::damping_parameters<Policy> && detail::damping_flags<Policy> &&
     detail::damping_forces<Policy, double> && detail::damping_forces<Policy, pack<double, 4>>;

@@ -14,9 +14,9 @@ namespace lacuna {
 ///   F_n = -k_n * max(0, L - d)          d distance, L touching distance
 ///   F_s <- clip(F_s + k_s * slip, mu * |F_n|)
 ///
-/// The normal force is the total form of eq. 12's sum of increments: the two are equal up to rounding.
-/// L is r_i + r_j, except for pairs that carry on from the initial packing or from a bond, whose L makes them
-/// start without a jump of force; once such a pair has come apart, L is r_i + r_j again.
+/// The normal force follows from the total overlap, not from eq. 12's sum of increments: the two are equal up to
+/// rounding. L is r_i + r_j. Pairs that touch in the initial packing, and pairs whose bond has broken, have another L,
+/// with which their force starts without a jump. Once such a pair has separated, L is r_i + r_j again.
 struct frictional_spring {
     /// What one material contributes (Table 1).
     struct material {
@@ -46,8 +46,8 @@ struct frictional_spring {
     template <class Value>
     static constexpr Value slack = 8 * std::numeric_limits<Value>::epsilon();
 
-    /// Stiffness of two materials in series, each contributing twice its own so that equal materials keep theirs
-    /// (harmonic mean); the smaller friction.
+    /// Stiffness: two springs in series, each of twice the material's stiffness (harmonic mean), so that two equal
+    /// materials give their own value. Friction: the smaller one.
     static parameters<double> combine(material const& a, material const& b, double /*thickness*/) {
         auto const series = [](double x, double y) { return x > 0 && y > 0 ? 2 / (1 / x + 1 / y) : 0.0; };
         double const shear = series(a.shear_stiffness, b.shear_stiffness);
@@ -55,21 +55,22 @@ struct frictional_spring {
                 min(a.friction, b.friction)};
     }
 
-    /// A pair at zero force that touches at `distance`: the pairs of the initial packing that count as touching,
-    /// and pairs whose bond broke in tension. For all other pairs distance is touching_distance.
+    /// History at zero force of a pair that touches at `distance`. This is the current distance for pairs of the
+    /// initial packing that count as touching, and for pairs whose bond broke in tension. For all other pairs it is the
+    /// touching distance.
     template <class T, int Dim>
     static history<T, Dim> initial(T distance, T /*touching_distance*/) {
         return {distance, {}};
     }
 
-    /// A pair whose bond has just failed in shear: keeps a compressive normal force, and the shear force, which
-    /// evaluate() clips.
+    /// History of a pair whose bond has just failed in shear. A compressive normal force stays, and so does the shear
+    /// force, which evaluate() clips.
     template <class T, int Dim>
     static history<T, Dim> hand_over(parameters<T> const& p, pair_motion<T, Dim> const& m, T normal_force,
                                      vec<T, shear_dim<Dim>> const& shear_force) {
         T carried = m.distance - normal_force / p.normal_stiffness;
-        T open = min(m.distance, m.touching_distance());
-        return {select(normal_force < T(0), carried, open), shear_force};
+        T unloaded = min(m.distance, m.touching_distance());
+        return {select(normal_force < T(0), carried, unloaded), shear_force};
     }
 
     template <class T, int Dim>
@@ -79,7 +80,7 @@ struct frictional_spring {
         T normal = -(p.normal_stiffness * overlap);
         auto shear = clip_norm(h.shear_force + m.slip * p.shear_stiffness, -(p.friction * normal));
         auto slid = m.slip - (shear - h.shear_force) * p.shear_compliance;
-        // A rounding more than the limit: a pair that starts with a gap at its own L must not lose it by standing still.
+        // The slack absorbs rounding: a pair that rests at an L beyond r_i + r_j must not lose this L.
         auto apart = m.distance > max(h.touching_distance, m.touching_distance()) * T(1 + slack<value_t<T>>);
         return {normal,
                 shear,

@@ -17,20 +17,20 @@ namespace lacuna {
 ///   F_s <- clip(F_s + 8 G* a * slip, mu |F_n|)
 ///                                             1/G* = 2 (2 - nu_i)(1 + nu_i)/E_i + 2 (2 - nu_j)(1 + nu_j)/E_j
 ///
-/// While the contact gets smaller the stored shear force shrinks with it (with its old force on a smaller contact it
-/// would give back more energy than it took); what it loses counts as dissipated. Particles are spheres to this law
-/// in the plane, too.
+/// While the contact shrinks, the stored shear force shrinks with it: the old force on a smaller contact would return
+/// more energy than the contact has stored. The energy lost in this way counts as dissipated. The law treats particles
+/// as spheres in the plane, too.
 ///
-/// With a dashpot (laws/damping.hpp) of the ratio z of critical damping a collision has the restitution
-/// exp(-pi z / sqrt(1 - z^2)) at any speed, as with a linear spring (Tsuji, Tanaka and Ishida 1992, in the closed form of
-/// Antypov and Elliott 2011), if the contact lasts until the overlap has gone: see restitution_damping.
+/// With a dashpot (laws/damping.hpp) at the ratio z of critical damping, a collision has the coefficient of restitution
+/// exp(-pi z / sqrt(1 - z^2)) at any speed, as with a linear spring (Tsuji, Tanaka and Ishida 1992, in the closed form
+/// of Antypov and Elliott 2011). This holds if the contact lasts until the overlap is zero: see restitution_damping.
 struct hertz_mindlin {
     /// What one material contributes.
     struct material {
         double young_modulus = 1e9;  ///< E, Pa
         double poisson_ratio = 0.25; ///< nu, above -1 and at most 0.5
         double friction = 0.0;       ///< friction coefficient mu, 1
-        double shear_factor = 1.0;   ///< tangential stiffness over Mindlin's; of a pair the mean
+        double shear_factor = 1.0;   ///< tangential stiffness over Mindlin's, 1; a pair has the mean
 
         /// \throws std::invalid_argument naming field, value and rule.
         void validate(std::string const& name) const {
@@ -58,8 +58,8 @@ struct hertz_mindlin {
     template <class Value>
     static constexpr Value slack = 8 * std::numeric_limits<Value>::epsilon();
 
-    /// A time step that is chosen for a run is made for contacts with this overlap at least, as a share of the smaller
-    /// radius; see contact_assumption.
+    /// An automatically chosen time step assumes that contacts overlap by at least this share of the smaller radius;
+    /// see contact_assumption.
     static constexpr double expected_overlap = 0.01;
 
     static parameters<double> combine(material const& a, material const& b, double /*thickness*/) {
@@ -71,14 +71,13 @@ struct hertz_mindlin {
                 min(a.friction, b.friction)};
     }
 
-    /// A pair at zero force that touches at `distance`; see frictional_spring::initial().
+    /// History at zero force of a pair that touches at `distance`; see frictional_spring::initial().
     template <class T, int Dim>
     static history<T, Dim> initial(T distance, T /*touching_distance*/) {
         return {distance, T(0), {}};
     }
 
-    /// A pair whose bond has just failed in shear: keeps a compressive normal force, and the shear force, which
-    /// evaluate() clips.
+    /// \copydoc frictional_spring::hand_over
     template <class T, int Dim>
     static history<T, Dim> hand_over(parameters<T> const& p, pair_motion<T, Dim> const& m, T normal_force,
                                      vec<T, shear_dim<Dim>> const& shear_force) {
@@ -98,7 +97,7 @@ struct hertz_mindlin {
         auto stored = h.shear_force * min(select(before, radius / select(before, h.contact_radius, T(1)), T(0)), T(1));
         auto shear = clip_norm(stored + m.slip * stiffness, -(p.friction * normal));
         T shear_energy = energy(shear, stiffness);
-        // A rounding more than the limit: a pair that starts with a gap at its own L must not lose it by standing still.
+        // The slack absorbs rounding: a pair that rests at an L beyond r_i + r_j must not lose this L.
         auto apart = m.distance > max(h.touching_distance, m.touching_distance()) * T(1 + slack<value_t<T>>);
         return {normal,
                 shear,
@@ -108,8 +107,8 @@ struct hertz_mindlin {
                     energy(h.shear_force, p.shear_modulus * h.contact_radius) - shear_energy};
     }
 
-    /// 5/6 of the normal tangent stiffness: with it a dashpot's ratio of critical damping gives a Hertzian contact the
-    /// restitution that it gives a linear one.
+    /// 5/6 of the normal tangent stiffness, N/m. With this value, a ratio of critical damping gives a Hertzian contact
+    /// the same restitution as a linear one.
     template <class T, int Dim>
     static T stiffness(parameters<T> const& p, pair_motion<T, Dim> const& m, history<T, Dim> const& h) {
         T overlap = max(h.touching_distance - m.distance, T(0));
@@ -124,8 +123,8 @@ private:
     }
     template <class T, int N>
     static T energy(vec<T, N> const& force, T const& stiffness) {
-        auto there = stiffness > T(0);
-        return select(there, T(value_t<T>(0.5)) * squared_norm(force) / select(there, stiffness, T(1)), T(0));
+        auto resists = stiffness > T(0);
+        return select(resists, T(value_t<T>(0.5)) * squared_norm(force) / select(resists, stiffness, T(1)), T(0));
     }
 };
 

@@ -43,12 +43,12 @@ struct no_interaction {
     }
 };
 
-/// Bodies pass through each other.
+/// Particles pass through each other.
 using no_contact = no_interaction;
 /// No bonds.
 using no_bond = no_interaction;
 
-/// Whether the engine has nothing to do for a law.
+/// True if a law never acts, so that the engine skips it.
 template <class Law>
 inline constexpr bool is_absent = requires { requires Law::absent; };
 

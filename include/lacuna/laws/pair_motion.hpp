@@ -4,9 +4,9 @@
 #include <lacuna/core/vec.hpp>
 
 /// \file
-/// What a law of a pair sees and what it answers. The sign convention of the whole library: the normal n points
-/// from particle i to particle j; a normal force is **positive in tension**; a shear force is the force on i,
-/// along the tangent (in 2D n turned by +90 degrees), positive for a positive slip of j against i.
+/// Input and output of a pair law, and the sign convention of the whole library. The normal n points from particle i to
+/// particle j. A normal force is **positive in tension**. A shear force is the force on i along the tangent (in 2D n
+/// rotated by +90 degrees), positive for a positive slip of j against i.
 
 namespace lacuna {
 
@@ -21,41 +21,41 @@ struct pair_motion {
     T touching_distance() const noexcept { return radius_i + radius_j; }
 };
 
-/// How the bodies of a pair turned against each other over one time step: what bonds with moments read.
+/// The relative rotation of a pair over one time step. Laws with moments read it.
 template <class T, int Dim>
 struct pair_rotation {
-    vec<T, rotation_dim<Dim>> bend; ///< turn of j less turn of i; in space its part across the normal, rad
-    T twist;                        ///< in space its part about the normal, in the plane 0, rad
+    vec<T, rotation_dim<Dim>> bend; ///< rotation of j minus rotation of i; in space its part across the normal, rad
+    T twist;                        ///< in space the part of that rotation about the normal, in the plane 0, rad
     vec<T, Dim> normal{};           ///< unit vector from i to j
 };
 
-/// What a law answers. H is the law's history.
+/// The result of a law's formula. H is the law's history.
 template <class T, int Dim, class H>
 struct pair_response {
     T normal_force;                     ///< N, positive in tension
     vec<T, shear_dim<Dim>> shear_force; ///< N, on particle i
-    H history;                          ///< what the law remembers for the next step
+    H history;                          ///< input of the next step
     T stored_energy;                    ///< elastic energy in the pair, J
-    T dissipated_energy;                ///< turned into heat in this step (sliding, crushing), J
+    T dissipated_energy;                ///< energy dissipated in this step (sliding, crushing), J
 };
 
-/// A bond's answer: in addition whether, and how, it fails in this step.
+/// The result of a bond law's formula: it also says whether, and in which mode, the bond fails in this step.
 template <class T, int Dim, class H>
 struct bond_response : pair_response<T, Dim, H> {
     mask_t<T> broken;           ///< the bond fails
-    mask_t<T> broken_in_tension; ///< meaningful where broken: by tension (else by shear)
+    mask_t<T> broken_in_tension; ///< valid where broken: true for tension, false for shear
 };
 
-/// The answer of a law that also carries moments. Response is pair_response or bond_response.
+/// The result of a law that also carries moments. Response is pair_response or bond_response.
 template <class T, int Dim, class Response>
 struct with_moments : Response {
-    vec<T, rotation_dim<Dim>> bending_moment; ///< on i, and the opposite on j; in space across the normal, N m
+    vec<T, rotation_dim<Dim>> bending_moment; ///< on i; j gets the opposite; in space across the normal, N m
     T twisting_moment;                        ///< in space, on i about the normal, N m
 };
 template <class T, int Dim, class H>
-using moment_response = with_moments<T, Dim, bond_response<T, Dim, H>>; ///< of a bond
+using moment_response = with_moments<T, Dim, bond_response<T, Dim, H>>; ///< for a bond
 template <class T, int Dim, class H>
-using moment_pair_response = with_moments<T, Dim, pair_response<T, Dim, H>>; ///< of a contact
+using moment_pair_response = with_moments<T, Dim, pair_response<T, Dim, H>>; ///< for a contact
 
 /// Stiffness of a bond against bending and twisting, N m/rad.
 template <class T>
@@ -63,16 +63,15 @@ struct moment_stiffness {
     T bending, twisting;
 };
 
-/// Whether a law carries moments. It has then
-///   - `static constexpr bool carries_moment = true` and in its history `bending_moment`, which turns with the pair;
-///   - `evaluate(parameters, pair_motion, pair_rotation, history) -> with_moments` beside the form without a turn;
+/// True if a law carries moments. Such a law has
+///   - `static constexpr bool carries_moment = true`, and in its history `bending_moment`, which rotates with the pair;
+///   - `evaluate(parameters, pair_motion, pair_rotation, history) -> with_moments`, and the form without pair_rotation;
 ///   - `rotational_stiffness<Dim>(parameters, radius_i, radius_j, distance) -> moment_stiffness`.
 template <class Law>
 inline constexpr bool carries_moment = requires { requires Law::carries_moment; };
 
-/// Normal stiffness in N/m by which a dashpot of a given ratio of critical damping is measured: of a law whose
-/// stiffness changes with the overlap in the present state, by `stiffness(parameters, pair_motion, history)`, else
-/// the law's constant.
+/// The normal stiffness from which a dashpot's critical damping follows, N/m: `stiffness(parameters, pair_motion,
+/// history)` in the current state if the law has it, else the constant `stiffness(parameters)`.
 template <class Law, class P, class M, class H>
 auto dashpot_stiffness(P const& parameters, [[maybe_unused]] M const& motion, [[maybe_unused]] H const& history) {
     if constexpr (requires { Law::stiffness(parameters, motion, history); })
@@ -81,7 +80,7 @@ auto dashpot_stiffness(P const& parameters, [[maybe_unused]] M const& motion, [[
         return Law::stiffness(parameters);
 }
 
-/// Whether a law's stiffness changes with the overlap.
+/// True if a law's stiffness changes with the overlap.
 template <class Law, int Dim>
 inline constexpr bool stiffens = requires(typename Law::template parameters<double> const& parameters,
                                           pair_motion<double, Dim> const& motion,
@@ -89,7 +88,7 @@ inline constexpr bool stiffens = requires(typename Law::template parameters<doub
     Law::stiffness(parameters, motion, history);
 };
 
-/// Distance at which a pair touches to its law: the one in its history, or r_i + r_j, m.
+/// Distance at which a pair touches according to its law, m: that in its history if there is one, else r_i + r_j.
 template <class T, int Dim, class H>
 T touching_distance_of(pair_motion<T, Dim> const& motion, [[maybe_unused]] H const& history) {
     if constexpr (requires { history.touching_distance; })

@@ -11,8 +11,8 @@
 
 namespace lacuna {
 
-/// The parallel bond of Potyondy and Cundall (2004): an elastic beam of cement between two particles that also
-/// resists bending, and in space twisting, and breaks where the stress at its rim exceeds the strength.
+/// The parallel bond of Potyondy and Cundall (2004): an elastic beam of cement between two particles. It also resists
+/// bending, and in space twisting. It breaks when the stress at its rim exceeds the strength.
 ///
 ///   R = radius_factor * min(r_i, r_j)         half-width (2D) or radius (3D) of the beam
 ///   A = 2 R t, I = 2/3 R^3 t                  in the plane; pi R^2, pi R^4 / 4, J = 2 I in space
@@ -23,8 +23,8 @@ namespace lacuna {
 ///   F_n / A + |M_b| R / I > sigma_n           breaks in tension
 ///   |F_s| / A + |M_t| R / J > sigma_s         breaks in shear
 ///
-/// As in the paper there is no failure in compression. Stiffnesses are those of the whole bond, in N/m as in the other
-/// laws here; the paper's are per area of it.
+/// As in their paper, there is no failure in compression. Stiffnesses here belong to the whole bond, in N/m, as in the
+/// other laws; those of the paper are per unit area of the bond.
 struct parallel_bond {
     static constexpr bool carries_moment = true;
 
@@ -34,7 +34,7 @@ struct parallel_bond {
         double shear_stiffness = 1e6;                                      ///< k_s, N/m
         double tensile_strength = std::numeric_limits<double>::infinity(); ///< sigma_n, Pa; infinite: never breaks
         double shear_strength = std::numeric_limits<double>::infinity();   ///< sigma_s, Pa
-        double radius_factor = 1; ///< radius of the beam over that of the smaller particle; of a pair the smaller factor
+        double radius_factor = 1; ///< R over the radius of the smaller particle, 1; a pair has the smaller factor
 
         /// \throws std::invalid_argument naming field, value and rule.
         void validate(std::string const& name) const {
@@ -51,7 +51,7 @@ struct parallel_bond {
         T normal_stiffness, shear_stiffness;
         T tensile_strength, shear_strength; // Pa
         T radius_factor;
-        T moment_factor; // of the stiffnesses against bending and twisting; 1 for the beam
+        T moment_factor; // multiplies the stiffnesses against bending and twisting; 1 for the beam
         T thickness;     // m
     };
 
@@ -63,10 +63,10 @@ struct parallel_bond {
         T twisting_moment;
     };
 
-    /// Stiffness in series (harmonic mean), the smaller strength and radius.
+    /// Stiffnesses combine in series (harmonic mean); a pair has the smaller strength and radius factor.
     static parameters<double> combine(material const& a, material const& b, double thickness) {
         auto const series = [](double x, double y) { return x > 0 && y > 0 ? 2 / (1 / x + 1 / y) : 0.0; };
-        // A finite "never", of single precision too, keeps infinity times zero out of the formula.
+        // 1e30 means "never" and is finite in single precision, too: infinity would give infinity times zero.
         auto const weaker = [](double x, double y) { return min(min(x, y), 1e30); };
         return {series(a.normal_stiffness, b.normal_stiffness),
                 series(a.shear_stiffness, b.shear_stiffness),
@@ -77,7 +77,7 @@ struct parallel_bond {
                 thickness};
     }
 
-    /// The parameters of a bond with values of its own.
+    /// Returns the parameters of a bond whose values `own` replace those of its materials.
     template <int Dim>
     static parameters<double> with_values(parameters<double> p, bond_values const& own, double radius_i, double radius_j) {
         double const r = p.radius_factor * min(radius_i, radius_j);
@@ -92,7 +92,7 @@ struct parallel_bond {
         return p;
     }
 
-    /// A bond made at `distance`, without force and moment.
+    /// History of a bond made at `distance`, without force and moment.
     template <class T, int Dim>
     static history<T, Dim> initial(T distance, T /*touching_distance*/) {
         return {distance, {}, {}, T(0)};
@@ -110,15 +110,16 @@ struct parallel_bond {
 
     template <class T, int Dim>
     static moment_response<T, Dim, history<T, Dim>> evaluate(parameters<T> const& p, pair_motion<T, Dim> const& m,
-                                                             pair_rotation<T, Dim> const& turn, history<T, Dim> const& h) {
+                                                             pair_rotation<T, Dim> const& rotation,
+                                                             history<T, Dim> const& h) {
         T r = p.radius_factor * min(m.radius_i, m.radius_j);
         T area = smaller_particle_area::area<Dim>(r, r, p.thickness);
         auto k = rotational_stiffness<Dim>(p, m.radius_i, m.radius_j);
         T normal = p.normal_stiffness * (m.distance - h.rest_distance);
         auto shear = h.shear_force + m.slip * p.shear_stiffness;
-        auto bending = h.bending_moment + turn.bend * k.bending;
-        T twisting = h.twisting_moment + turn.twist * k.twisting;
-        // The rim's stress times A: A R / I is 3 / R in the plane and 4 / R in space, A R / J is 2 / R.
+        auto bending = h.bending_moment + rotation.bend * k.bending;
+        T twisting = h.twisting_moment + rotation.twist * k.twisting;
+        // The stress at the rim times A: A R / I is 3 / R in the plane and 4 / R in space, A R / J is 2 / R.
         T at_rim = normal + norm(bending) * T(value_t<T>(Dim == 2 ? 3.0 : 4.0)) / r;
         T along_rim = norm(shear) + abs(twisting) * T(value_t<T>(2.0)) / r;
         auto failure = box_envelope::check_strength(at_rim, along_rim, p.tensile_strength * area, p.shear_strength * area);
@@ -143,11 +144,11 @@ struct parallel_bond {
     }
 
 private:
-    /// a / k, and 0 for a spring that is not there.
+    /// a / k, and 0 for a spring without stiffness.
     template <class T>
     static T per(T const& a, T const& k) {
-        auto there = k > T(0);
-        return select(there, a / select(there, k, T(1)), T(0));
+        auto resists = k > T(0);
+        return select(resists, a / select(resists, k, T(1)), T(0));
     }
 };
 

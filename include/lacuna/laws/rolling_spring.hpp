@@ -16,9 +16,9 @@ namespace lacuna {
 ///   R = r_i r_j / (r_i + r_j)                 rolling radius; at a wall r_i
 ///   M <- clip(M + c k_s R^2 * bend, mu_r R |F_n|)
 ///
-/// bend is the turn of j less that of i. With c = 1 the stiffness against rolling is Iwashita and Oda's, k_s R^2.
-/// Limits: model C's rolling dashpot is left out (the law knows no inertia): what the spring still holds when a body
-/// has come to rest swings until another damping takes it. Nothing resists a twist about the normal.
+/// bend is the rotation of j minus that of i. With c = 1 the stiffness against rolling is Iwashita and Oda's, k_s R^2.
+/// Limits: model C's rolling dashpot is left out, since the law does not see the inertia. A particle that stops rolling
+/// therefore oscillates on the spring until another damping stops it. Nothing resists a twist about the normal.
 struct rolling_spring {
     static constexpr bool carries_moment = true;
 
@@ -27,8 +27,8 @@ struct rolling_spring {
         double normal_stiffness = 1e6; ///< k_n, N/m
         double shear_stiffness = 1e6;  ///< k_s, N/m
         double friction = 0.0;         ///< friction coefficient mu, 1
-        double rolling_friction = 0.0; ///< mu_r, tangent of the slope on which a body just does not roll, 1
-        double rolling_factor = 1.0;   ///< c, stiffness against rolling over k_s R^2; of a pair the mean
+        double rolling_friction = 0.0; ///< mu_r, tangent of the steepest slope on which a particle does not roll, 1
+        double rolling_factor = 1.0;   ///< c, stiffness against rolling over k_s R^2; a pair has the mean
 
         /// \throws std::invalid_argument naming field, value and rule.
         void validate(std::string const& name) const {
@@ -52,7 +52,7 @@ struct rolling_spring {
         vec<T, rotation_dim<Dim>> bending_moment;
     };
 
-    /// As frictional_spring::combine(); the smaller rolling friction.
+    /// Combines the springs as frictional_spring::combine(). A pair has the smaller rolling friction.
     static parameters<double> combine(material const& a, material const& b, double thickness) {
         auto const springs = frictional_spring::combine(a.springs(), b.springs(), thickness);
         return {springs, min(a.rolling_friction, b.rolling_friction),
@@ -69,8 +69,8 @@ struct rolling_spring {
     template <class T, int Dim>
     static history<T, Dim> hand_over(parameters<T> const& p, pair_motion<T, Dim> const& m, T normal_force,
                                      vec<T, shear_dim<Dim>> const& shear_force) {
-        auto const of_springs = frictional_spring::hand_over(p.springs, m, normal_force, shear_force);
-        return {of_springs.touching_distance, of_springs.shear_force, {}};
+        auto const springs = frictional_spring::hand_over(p.springs, m, normal_force, shear_force);
+        return {springs.touching_distance, springs.shear_force, {}};
     }
 
     /// Stiffness against rolling, N m/rad.
@@ -82,14 +82,15 @@ struct rolling_spring {
 
     template <class T, int Dim>
     static moment_pair_response<T, Dim, history<T, Dim>> evaluate(parameters<T> const& p, pair_motion<T, Dim> const& m,
-                                                                  pair_rotation<T, Dim> const& turn, history<T, Dim> const& h) {
+                                                                  pair_rotation<T, Dim> const& rotation,
+                                                                  history<T, Dim> const& h) {
         auto springs = frictional_spring::evaluate(p.springs, m, {h.touching_distance, h.shear_force});
         T r = rolling_radius(m.radius_i, m.radius_j);
         T k = p.rolling_stiffness * r * r;
-        auto there = k > T(0);
-        T compliance = select(there, T(1) / select(there, k, T(1)), T(0));
-        auto moment = clip_norm(h.bending_moment + turn.bend * k, -(p.rolling_friction * r * springs.normal_force));
-        auto rolled = turn.bend - (moment - h.bending_moment) * compliance;
+        auto resists = k > T(0);
+        T compliance = select(resists, T(1) / select(resists, k, T(1)), T(0));
+        auto moment = clip_norm(h.bending_moment + rotation.bend * k, -(p.rolling_friction * r * springs.normal_force));
+        auto rolled = rotation.bend - (moment - h.bending_moment) * compliance;
         return {{springs.normal_force,
                  springs.shear_force,
                  {springs.history.touching_distance, springs.history.shear_force, moment},

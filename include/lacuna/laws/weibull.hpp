@@ -14,19 +14,19 @@
 
 namespace lacuna {
 
-/// Strengths of single bonds, scattered by Weibull's distribution (1951, J. Appl. Mech. 18, 293): of all bonds the share
+/// Strengths of single bonds, scattered by Weibull's distribution (1951, J. Appl. Mech. 18, 293). A bond's strength is
+/// x times that of its materials. The share of bonds with a factor below x is
 ///
 ///   P(x) = 1 - exp(-(x Gamma(1 + 1/m))^m)
 ///
-/// is weaker than x times what its materials give, so that the mean of x is 1. Standard deviation:
-/// sqrt(Gamma(1 + 2/m) / Gamma(1 + 1/m)^2 - 1).
+/// The mean of x is 1, its standard deviation is sqrt(Gamma(1 + 2/m) / Gamma(1 + 1/m)^2 - 1).
 ///
-/// A bond's x follows from its two particles' ids and the seed alone: it does not depend on other bonds, on the order of
-/// bonds or of the two particles, or on threads. Limits: tensile and shear strength of a bond scatter together; no size
-/// effect (the same distribution for bonds of any area).
+/// A bond's factor depends on the ids of its two particles and on the seed alone. It does not depend on other bonds, on
+/// the order of bonds or of the two particles, or on threads. Limits: the tensile and the shear strength of a bond have
+/// the same factor. There is no size effect (the distribution is the same for bonds of any area).
 struct weibull_strengths {
-    double modulus = 10;    ///< m, 1: the smaller, the wider the scatter; at least 0.1
-    std::uint64_t seed = 0; ///< another seed, other strengths
+    double modulus = 10;    ///< m, 1: a smaller modulus scatters more; at least 0.1
+    std::uint64_t seed = 0; ///< each seed gives other strengths
 
     /// \throws std::invalid_argument naming field, value and rule.
     void validate(std::string const& name) const {
@@ -34,12 +34,12 @@ struct weibull_strengths {
         if (!(modulus >= 0.1)) refuse(name + ".modulus", modulus, "at least 0.1");
     }
 
-    /// x of the bond between two particles, by their ids.
+    /// The factor x of the bond between the particles with the ids a and b.
     double factor(std::int32_t a, std::int32_t b) const {
         return std::pow(-std::log1p(-uniform(a, b)), 1 / modulus) / std::tgamma(1 + 1 / modulus);
     }
 
-    /// Values for simulation_parameters::bonds.
+    /// Returns the values for simulation_parameters::bonds.
     /// \param bonds as in packing::bonds
     /// \throws std::invalid_argument as validate()
     std::vector<bond_values> draw(std::span<std::array<std::int32_t, 2> const> bonds) const {
@@ -50,7 +50,8 @@ struct weibull_strengths {
     }
 
 private:
-    /// In (0, 1), by the finalizer of SplitMix64 (Steele, Lea and Flood 2014), once for the seed and once for the ids.
+    /// A uniform number in (0, 1): the finalizer of SplitMix64 (Steele, Lea and Flood 2014), applied once to the seed
+    /// and once to the ids.
     double uniform(std::int32_t a, std::int32_t b) const noexcept {
         auto const mixed = [](std::uint64_t z) {
             z += 0x9e3779b97f4a7c15;
