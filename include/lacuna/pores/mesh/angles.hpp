@@ -7,14 +7,14 @@
 #include <lacuna/core/scalar.hpp>
 
 /// \file
-/// Angles over a scalar type that has no inverse tangent of its own, and quotients that share a division.
+/// Angles for scalar types without an inverse tangent (packs, dual numbers), and several inverses with one division.
 
 namespace lacuna {
 
 namespace detail {
 
-/// Angle of a vector (x, y) with y >= 0, as base plus or minus the inverse tangent of above / below, a ratio of at most
-/// tan(pi/8). Kept apart so that several divisions can be made in one.
+/// Angle of a vector (x, y) with y >= 0: a multiple of pi/4 plus or minus the inverse tangent of above / below, where
+/// |above / below| <= tan(pi/8). The division is left to the caller, who can combine several into one.
 template <class T>
 struct reduced_angle {
     T above, below;
@@ -32,12 +32,12 @@ struct reduced_angle {
     }
     /// \param z above / below
     ///
-    /// A law's scalar type has no inverse tangent. The polynomial interpolates it at Chebyshev's points of z^2 for
-    /// |z| <= tan(pi/8); its error, below 6e-17, is less than that of the arithmetic.
+    /// The inverse tangent is a polynomial that interpolates it at the Chebyshev points of z^2 for |z| <= tan(pi/8).
+    /// Its error is below 6e-17, less than that of the arithmetic.
     T angle(T const& z) const noexcept {
         using V = value_t<T>;
         T s = z * z, s2 = s * s;
-        // By pairs of terms: a chain half as long as one by one.
+        // Two terms at a time: half as many dependent multiplications as with Horner's scheme.
         T p = T(V(2.2748939747779046e-2)) * s + T(V(-4.483218628995374e-2));
         p = p * s2 + (T(V(5.7362969593526145e-2)) * s + T(V(-6.649607953399717e-2)));
         p = p * s2 + (T(V(7.691054614825647e-2)) * s + T(V(-9.090852527088297e-2)));
@@ -59,8 +59,8 @@ T upper_angle(T const& y, T const& x) noexcept {
     return a.angle(a.above / select(a.below > zero, a.below, T(value_t<T>(1))));
 }
 
-/// Replaces five numbers by their inverses, with one division where the range of the numbers allows for a product of
-/// five (a pack's division takes as long as ten multiplications).
+/// Replaces five numbers by their inverses. A double's range allows for the product of all five, so that one division
+/// is enough; narrower types take five. (A pack's division takes as long as ten multiplications.)
 template <class T>
 void invert(T& a, T& b, T& c, T& d, T& e) noexcept {
     using V = value_t<T>;

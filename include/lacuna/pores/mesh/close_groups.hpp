@@ -13,21 +13,21 @@
 
 namespace lacuna::detail {
 
-/// Particles in groups: two whose centres are no farther apart than a reach are in one group, and so are groups that are
-/// united. A grid of cells finds them; all particles of a cell are in one group.
+/// Groups of particles that are close to each other. Two particles whose centres are at most `reach` apart are in the
+/// same group; unite() merges groups. The search uses a grid whose cells are so small that each lies in one group.
 template <class Real, int Dim>
 class close_groups {
 public:
-    using place = std::array<double, std::size_t(Dim)>;
+    using point = std::array<double, std::size_t(Dim)>;
 
     /// \param reach m, > 0 and finite
-    close_groups(points_view<Real, Dim> places, double reach) : points_(places), reach_(reach) {
-        // No two places in one cell are farther apart than the reach.
+    close_groups(points_view<Real, Dim> centres, double reach) : points_(centres), reach_(reach) {
+        // No two centres in one cell are farther apart than the reach.
         side_ = reach / std::sqrt(double(Dim)) * (1 - 1e-9);
-        std::vector<entry> all(places.size());
+        std::vector<entry> all(centres.size());
         for (std::size_t i = 0; i < all.size(); ++i) {
             all[i].particle = std::int32_t(i);
-            for (int a = 0; a < Dim; ++a) all[i].cell[std::size_t(a)] = cell_of(double(places(i, a)));
+            for (int a = 0; a < Dim; ++a) all[i].cell[std::size_t(a)] = cell_of(double(centres(i, a)));
         }
         std::sort(all.begin(), all.end(), [](entry const& a, entry const& b) {
             return a.cell != b.cell ? a.cell < b.cell : a.particle < b.particle;
@@ -43,12 +43,12 @@ public:
         root_.resize(cells_.size());
         for (std::size_t c = 0; c < root_.size(); ++c) root_[c] = c;
         link();
-        cell_of_particle_.resize(places.size());
+        cell_of_particle_.resize(centres.size());
         for (std::size_t c = 0; c < cells_.size(); ++c)
             for (std::size_t k = first_[c]; k < first_[c + 1]; ++k) cell_of_particle_[std::size_t(particle_[k])] = c;
     }
 
-    /// Particles of the groups, in ascending order, groups in the order of their first ones.
+    /// Particles of each group, in ascending order; groups in the order of their first particles.
     std::vector<std::vector<std::int32_t>> list() const {
         std::vector<std::vector<std::int32_t>> groups;
         std::vector<std::size_t> number(cells_.size(), cells_.size());
@@ -65,10 +65,11 @@ public:
     std::size_t group(std::int32_t particle) const { return find(cell_of_particle_[std::size_t(particle)]); }
     void unite(std::int32_t one, std::int32_t other) { root_[group(other)] = group(one); }
 
-    /// Calls visit(particle) for those of other groups than `own` whose cells meet a box; a call may unite groups.
+    /// Calls visit(particle) for the particles in cells that meet a box, except those in the group of particle `own`.
+    /// visit may unite groups.
     template <class Visit>
-    void for_each_other(std::int32_t own, place const& low, place const& high, Visit const& visit) const {
-        place from, to;
+    void for_each_other(std::int32_t own, point const& low, point const& high, Visit const& visit) const {
+        point from, to;
         double many = 1;
         for (std::size_t a = 0; a < from.size(); ++a) {
             from[a] = cell_of(low[a]);
@@ -92,15 +93,15 @@ public:
 
 private:
     struct entry {
-        place cell;
+        point cell;
         std::int32_t particle;
     };
 
-    // Whole numbers as doubles: there is one for a place however far away.
+    // A whole number as a double: an integer would overflow for positions far away.
     double cell_of(double x) const noexcept { return std::floor(x / side_); }
 
     template <class Look>
-    void for_each_row(place const& from, place const& to, std::size_t axis, place cell, Look const& look) const {
+    void for_each_row(point const& from, point const& to, std::size_t axis, point cell, Look const& look) const {
         if (axis + 1 < cell.size()) {
             for (int k = 0; from[axis] + k <= to[axis] && k < 64; ++k) {
                 cell[axis] = from[axis] + k;
@@ -145,34 +146,35 @@ private:
 
     points_view<Real, Dim> points_;
     double reach_, side_;
-    std::vector<place> cells_;                  // with particles, in ascending order
-    std::vector<std::size_t> first_;            // of their particles
-    std::vector<std::int32_t> particle_;        // cell by cell
+    std::vector<point> cells_;           // cells that contain particles, in ascending order
+    std::vector<std::size_t> first_;     // for each cell: index in particle_ of its first particle
+    std::vector<std::int32_t> particle_; // particle numbers, cell by cell
     std::vector<std::size_t> cell_of_particle_;
-    mutable std::vector<std::size_t> root_;     // of cells: the cell that stands for their group
+    mutable std::vector<std::size_t> root_; // for each cell: the next cell on the way to the root of its group
 };
 
-/// A box around all places where a particle of radius <= largest_radius may be within the orthogonal sphere of a simplex, m:
-/// its lower and its upper corner. Without limits where rounding hides the sphere.
+/// Box that holds the centres of all particles of radius <= largest_radius that may be inside the orthogonal sphere of
+/// a simplex. Limits of +-1e300 if the simplex is so flat that rounding hides the sphere.
+/// \return lower and upper corner, m
 template <class Real, int Dim>
 std::array<std::array<double, std::size_t(Dim)>, 2> orthogonal_box(std::array<std::int32_t, std::size_t(Dim) + 1> const& s,
                                                                    points_view<Real, Dim> points, Real const* radii,
                                                                    double largest_radius) noexcept {
-    using place = vec<double, Dim>;
+    using point = vec<double, Dim>;
     auto const at = [&](std::size_t c) {
-        place x;
+        point x;
         for (int a = 0; a < Dim; ++a) x[a] = double(points(std::size_t(s[c]), a));
         return x;
     };
     auto const squared_radius = [&](std::size_t c) { return double(radii[s[c]]) * double(radii[s[c]]); };
-    place u[std::size_t(Dim)];
+    point u[std::size_t(Dim)];
     double half[std::size_t(Dim)], lengths = 1;
     for (std::size_t c = 0; c < std::size_t(Dim); ++c) {
         u[c] = at(c + 1) - at(0);
         half[c] = (squared_norm(u[c]) - squared_radius(c + 1) + squared_radius(0)) / 2;
         lengths *= norm(u[c]);
     }
-    place centre;
+    point centre;
     double size;
     if constexpr (Dim == 2) {
         size = cross(u[0], u[1]);

@@ -11,13 +11,13 @@
 #include <vector>
 
 /// \file
-/// Signs of the determinants that decide on a triangulation, without rounding errors: in plain numbers where their error
-/// bound says that the sign is sure, else by sums of numbers that do not overlap (J. R. Shewchuk, Adaptive precision
+/// Exact signs of the determinants on which a triangulation depends. Plain doubles are used where their error bound
+/// guarantees the sign, otherwise sums of doubles that do not overlap (J. R. Shewchuk, Adaptive precision
 /// floating-point arithmetic and fast robust geometric predicates, Discrete Comput. Geom. 18 (1997) 305).
 
 namespace lacuna::detail {
 
-/// A number as the sum of doubles that do not overlap, the smallest first: sums and products are exact.
+/// A number as the sum of doubles that do not overlap, the smallest first. Sums and products are exact.
 class exact_number {
 public:
     exact_number() = default;
@@ -68,7 +68,7 @@ public:
     }
     friend exact_number operator-(exact_number const& a, exact_number const& b) { return a + -b; }
 
-    /// Its value, to a relative error of a few roundings; of the right sign.
+    /// The value, rounded to a relative error of a few units in the last coordinate; its sign is exact.
     double value() const noexcept {
         double sum = 0;
         for (double const part : part_) sum += part;
@@ -86,7 +86,7 @@ private:
     std::vector<double> part_;
 };
 
-/// Determinant of a small square matrix, by its last column.
+/// Determinant of a small square matrix, expanded by its last column.
 template <class T, std::size_t N>
 T determinant(std::array<std::array<T, N>, N> const& m) {
     if constexpr (N == 1) {
@@ -106,31 +106,32 @@ T determinant(std::array<std::array<T, N>, N> const& m) {
     }
 }
 
-/// Particles of a triangulation as the signs see them: their places, scaled by a power of two such that no number is
-/// above 1, and their weights r^2 + shift.
+/// Particles of a triangulation as exact_signs uses them: positions, scaled by a power of two such that no coordinate
+/// exceeds 1, and weights r^2 + shift.
 template <int Dim>
 struct weighted_sites {
     std::vector<std::array<double, std::size_t(Dim)>> x;
     std::vector<double> radius, shift;
-    double scale = 1;  ///< 1 / m
-    double reach = 0; ///< what counts as near, here; see scaled_particles
+    double scale = 1; ///< 1 / m
+    double reach = 0; ///< scaled_particles::reach, in the units of `x`
 
-    /// Simplices longer than this have a particle far from the others: they may be thin and yet more than rounding.
-    static double longest_wall(double reach) noexcept { return (Dim == 2 ? 100 : 10) * reach; }
+    /// Length above which a simplex is never taken as degenerate: it has a particle far from the others, and may be
+    /// thin without being flat.
+    static double longest_degenerate(double reach) noexcept { return (Dim == 2 ? 100 : 10) * reach; }
 
     std::size_t size() const noexcept { return x.size(); }
     double weight(std::size_t k) const noexcept { return radius[k] * radius[k] + shift[k]; }
 };
 
-/// How a site lies with respect to the orthogonal sphere of a simplex.
+/// Position of a site relative to the orthogonal sphere of a simplex.
 struct power_reading {
-    double inside; ///< > 0: it breaks the simplex
-    double share;  ///< by how much weights would have to change for it not to: inside over this
-    double error;  ///< of `inside`
-    double nearest; ///< smallest squared distance of two of them
+    double inside;  ///< > 0: the site is inside the sphere
+    double share;   ///< inside / share is the change of weights that would put the site on the sphere
+    double error;   ///< bound of the rounding error of `inside`
+    double nearest; ///< smallest squared distance between any two of the corners and the site
 };
 
-/// Signs over sites; a simplex is an array of Dim + 1 of their numbers.
+/// Signs for simplices of sites; a simplex is an array of Dim + 1 site numbers.
 template <int Dim>
 class exact_signs {
 public:
@@ -141,12 +142,12 @@ public:
 
     weighted_sites<Dim> const& sites() const noexcept { return at_; }
 
-    /// Of the sign of Dim! times the size of a simplex; 0 when its corners lie on a line (in space: in a plane).
+    /// Dim! times the size of a simplex, with exact sign; 0 when its corners lie on a line (in space: in a plane).
     double orientation(simplex const& s) const {
         std::array<std::array<double, dim>, dim> m, largest;
         for (std::size_t k = 0; k < dim; ++k)
             for (std::size_t a = 0; a < dim; ++a) {
-                m[k][a] = place(s[k + 1], a) - place(s[0], a);
+                m[k][a] = coordinate(s[k + 1], a) - coordinate(s[0], a);
                 largest[k][a] = std::fabs(m[k][a]);
             }
         double const size = determinant(m);
@@ -154,18 +155,18 @@ public:
         std::array<std::array<exact_number, dim>, dim> exact;
         for (std::size_t k = 0; k < dim; ++k)
             for (std::size_t a = 0; a < dim; ++a)
-                exact[k][a] = exact_number::difference(place(s[k + 1], a), place(s[0], a));
+                exact[k][a] = exact_number::difference(coordinate(s[k + 1], a), coordinate(s[0], a));
         return determinant(exact).value();
     }
 
-    /// Of the sign of what is left of the simplex's power when site p is within its orthogonal sphere: > 0 when p lies
-    /// below the simplex's plane in (x, |x|^2 - weight), < 0 above, 0 on it. For a simplex of positive orientation.
+    /// > 0 if site p is inside the orthogonal sphere of simplex s: below the plane through the simplex's corners in
+    /// (x, |x|^2 - weight). < 0 above that plane, 0 on it; the sign is exact. s must have positive orientation.
     double inside(simplex const& s, std::int32_t p) const {
         auto const r = read(s, p);
         return std::fabs(r.inside) > r.error ? r.inside : exact_inside(s, p);
     }
 
-    /// The same in plain numbers, with what is needed to judge them.
+    /// The same in plain doubles, with error bound and scales.
     power_reading read(simplex const& s, std::int32_t p) const noexcept {
         std::array<std::array<double, dim>, dim + 1> u;
         std::array<double, dim + 1> lift, bound;
@@ -174,7 +175,7 @@ public:
         for (std::size_t k = 0; k <= dim; ++k) {
             double squared = 0;
             for (std::size_t a = 0; a < dim; ++a) {
-                u[k][a] = place(s[k], a) - place(p, a);
+                u[k][a] = coordinate(s[k], a) - coordinate(p, a);
                 squared += u[k][a] * u[k][a];
             }
             double const weight = at_.weight(std::size_t(s[k]));
@@ -214,17 +215,17 @@ public:
         for (std::size_t k = 0; k <= dim; ++k) {
             m[k][dim] = own - weight(s[k]);
             for (std::size_t a = 0; a < dim; ++a) {
-                m[k][a] = exact_number::difference(place(s[k], a), place(p, a));
+                m[k][a] = exact_number::difference(coordinate(s[k], a), coordinate(p, a));
                 m[k][dim] = m[k][dim] + m[k][a] * m[k][a];
             }
         }
-        // Expanded by the last column as read() does it: the sign of its first term is (-1)^Dim.
+        // The first term of the expansion by the last column, as in read(), has the sign (-1)^Dim.
         double const value = determinant(m).value();
         return Dim % 2 == 0 ? value : -value;
     }
 
 private:
-    double place(std::int32_t k, std::size_t axis) const noexcept { return at_.x[std::size_t(k)][axis]; }
+    double coordinate(std::int32_t k, std::size_t axis) const noexcept { return at_.x[std::size_t(k)][axis]; }
     static double permanent(std::array<std::array<double, dim>, dim> const& m) noexcept {
         if constexpr (Dim == 2)
             return m[0][0] * m[1][1] + m[0][1] * m[1][0];

@@ -7,34 +7,35 @@
 #include <lacuna/pores/mesh/angles.hpp>
 
 /// \file
-/// Formulas of pores, over a scalar type T (plain number, pack, dual number). In the plane a pore is the triangle of
-/// three particle centres, counter-clockwise, less the sectors of the discs in it; t is the thickness in m. In space it
-/// is the tetrahedron of four centres less the sectors of the spheres in it; a throat is a facet less the sectors of the
-/// discs that its plane cuts out of the three spheres.
+/// Formulas of pores for a scalar type T (plain number, pack, dual number).
+///   - In the plane a pore is the triangle of three particle centres, counter-clockwise, less the sectors of the discs
+///     in it. The thickness is in m.
+///   - In space a pore is the tetrahedron of four centres less the sectors of the spheres in it. A throat is a facet
+///     less the sectors of the three circles in which its plane cuts the spheres.
 
 namespace lacuna {
 
-/// Area of the triangle a, b, c; positive when counter-clockwise. m^2.
+/// Area of the triangle a, b, c, m^2; positive when counter-clockwise.
 template <class T>
 constexpr T triangle_area(vec<T, 2> const& a, vec<T, 2> const& b, vec<T, 2> const& c) noexcept {
     return cross(b - a, c - a) * T(value_t<T>(0.5));
 }
 
-/// Angle of a triangle at `corner`, between the directions to the other two corners; 0 to pi.
+/// Angle of a triangle at `corner`, between the directions to the other two corners, rad; 0 to pi.
 template <class T>
 T corner_angle(vec<T, 2> const& corner, vec<T, 2> const& one, vec<T, 2> const& other) noexcept {
     auto const u = one - corner, v = other - corner;
     return detail::upper_angle(abs(cross(u, v)), dot(u, v));
 }
 
-/// What the three discs at the corners of a pore leave.
+/// Void of a pore between three discs, and the force of its pressure on each disc.
 template <class T>
 struct pore_shape {
     T void_area;           ///< m^2; see void_area()
     vec<T, 2> traction[3]; ///< on each corner, for 1 Pa and a thickness of 1 m; see pore_traction()
 };
 
-/// Void and tractions of a pore together: the formula of both. Not a number where two centres coincide.
+/// Void and tractions of a pore in the plane, from one formula. Not a number where two centres coincide.
 template <class T>
 pore_shape<T> measure_pore(vec<T, 2> const& a, vec<T, 2> const& b, vec<T, 2> const& c, T const& ra, T const& rb,
                            T const& rc) noexcept {
@@ -49,10 +50,10 @@ pore_shape<T> measure_pore(vec<T, 2> const& a, vec<T, 2> const& b, vec<T, 2> con
     detail::invert(per_ab, per_bc, per_ca, per_a, per_b);
 
     T qa = ra * ra, qb = rb * rb, qc = rc * rc;
-    // The third angle is the rest of pi.
+    // The three angles sum to pi: the third needs no inverse tangent.
     T sectors = qc * T(V(3.14159265358979323846264338327950288)) + (qa - qc) * at_a.angle(at_a.above * per_a) +
                 (qb - qc) * at_b.angle(at_b.above * per_b);
-    // The joints of a with b, b with c and a with c, as seen from a.
+    // Joints of a with b, b with c and a with c, relative to a.
     vec<T, 2> joint_ab = ab * (half + half * ((qa - qb) * per_ab));
     vec<T, 2> joint_bc = ab + bc * (half + half * ((qb - qc) * per_bc));
     vec<T, 2> joint_ca = ca * (half * ((qc - qa) * per_ca) - half);
@@ -65,8 +66,8 @@ pore_shape<T> measure_pore(vec<T, 2> const& a, vec<T, 2> const& b, vec<T, 2> con
     return shape;
 }
 
-/// Area of the triangle less the three sectors of the discs in it; negative where the discs overlap too much to
-/// leave a void, and for a triangle that has turned over. m^2. Not a number where two centres coincide.
+/// Area of the triangle less the three sectors of the discs in it, m^2. Negative where the discs overlap too much to
+/// leave a void, and for an inverted triangle. Not a number where two centres coincide.
 template <class T>
 T void_area(vec<T, 2> const& a, vec<T, 2> const& b, vec<T, 2> const& c, T const& ra, T const& rb,
             T const& rc) noexcept {
@@ -80,11 +81,12 @@ T pore_volume(vec<T, 2> const& a, vec<T, 2> const& b, vec<T, 2> const& c, T cons
     return max(void_area(a, b, c, ra, rb, rc) * thickness, floor);
 }
 
-/// Where the joint of two particles lies between their centres: 0 at i, 1 at j.
+/// Position of the joint of two discs on the line of their centres: 0 at i, 1 at j.
 ///
-/// The joint is the point of equal power with respect to both discs, (d^2 + r_i^2 - r_j^2) / (2 d^2): where the discs
-/// touch it is the contact point (r_i over r_i + r_j), and at any gap or overlap it is the one point for which eq. 16's
-/// chords are the derivatives of the pore volume. The edges of the regular triangulation cross there as well.
+/// The joint is the point of equal power with respect to both discs, (d^2 + r_i^2 - r_j^2) / (2 d^2). Where the discs
+/// touch, it is the contact point, r_i / (r_i + r_j). At any gap or overlap it is the only point for which the chords
+/// of the paper's eq. 16 are the derivatives of the pore volume. The radical axis of the discs, an edge of the power
+/// diagram, crosses the line of centres there as well.
 template <class T>
 constexpr T joint_share(vec<T, 2> const& xi, vec<T, 2> const& xj, T const& ri, T const& rj) noexcept {
     T const half = T(value_t<T>(0.5));
@@ -97,20 +99,20 @@ constexpr vec<T, 2> joint_point(vec<T, 2> const& xi, vec<T, 2> const& xj, T cons
     return xi + (xj - xi) * joint_share(xi, xj, ri, rj);
 }
 
-/// Eq. 16 for particle i in the pore of i, j, k (counter-clockwise): the force, in N, of a pressure of 1 Pa on the
-/// chord between the joints of i with j and with k, outwards from the pore, over the thickness.
+/// The paper's eq. 16 for particle i in the pore of i, j, k (counter-clockwise), N: the force of a pressure of 1 Pa on
+/// the chord between the joints of i with j and i with k, times the thickness, directed outwards from the pore.
 ///
-/// It is the derivative of the pore's volume by the position of i, at any gap (as long as the volume is above its
-/// floor): the work of the pressure on the particles is that of the pore's change of volume. A volume does not change
-/// when its pore is moved or turned, so the three forces of a pore have no sum and no moment. They act through the
-/// centres: a pressure on a smooth disc does not turn it.
+/// The force is the derivative of the pore's volume with respect to the position of i, at any gap, while the volume is
+/// above its floor. So the work of the pressure on the particles equals its work on the change of volume. Translation
+/// and rotation leave the volume unchanged, so the three forces of a pore have zero sum and zero moment. They act
+/// through the centres: pressure on a smooth disc exerts no torque.
 template <class T>
 vec<T, 2> pore_traction(vec<T, 2> const& xi, vec<T, 2> const& xj, vec<T, 2> const& xk, T const& ri, T const& rj,
                         T const& rk, T const& thickness) noexcept {
     return measure_pore(xi, xj, xk, ri, rj, rk).traction[0] * thickness;
 }
 
-/// Volume of the tetrahedron a, b, c, d; positive when a, b, c turn counter-clockwise as seen from d. m^3.
+/// Volume of the tetrahedron a, b, c, d, m^3; positive when a, b, c are counter-clockwise as seen from d.
 template <class T>
 constexpr T tetrahedron_volume(vec<T, 3> const& a, vec<T, 3> const& b, vec<T, 3> const& c,
                                vec<T, 3> const& d) noexcept {
@@ -125,15 +127,16 @@ T triangle_area(vec<T, 3> const& a, vec<T, 3> const& b, vec<T, 3> const& c) noex
 
 namespace detail {
 
-/// Solid angle at a corner: `twisted` the triple product of its edges' vectors, their lengths and their products.
+/// Solid angle at a corner, sr. \param triple |u . (v x w)| of the three edge vectors \param u, v, w their lengths
+/// \param uv, vw, wu their scalar products
 template <class T>
-T solid_angle(T const& twisted, T const& u, T const& v, T const& w, T const& uv, T const& vw, T const& wu) noexcept {
-    return T(value_t<T>(2)) * upper_angle(twisted, u * v * w + uv * w + vw * u + wu * v);
+T solid_angle(T const& triple, T const& u, T const& v, T const& w, T const& uv, T const& vw, T const& wu) noexcept {
+    return T(value_t<T>(2)) * upper_angle(triple, u * v * w + uv * w + vw * u + wu * v);
 }
 
 } // namespace detail
 
-/// Solid angle under which the triangle of one, two, three is seen from `corner`, sr; 0 to 2 pi.
+/// Solid angle of the triangle one, two, three as seen from `corner`, sr; 0 to 2 pi.
 ///
 /// A. van Oosterom, J. Strackee, The solid angle of a plane triangle, IEEE Trans. Biomed. Eng. 30 (1983) 125:
 ///   tan(Omega / 2) = |u . (v x w)| / (uvw + (u . v) w + (v . w) u + (w . u) v)
@@ -143,18 +146,19 @@ T solid_angle(vec<T, 3> const& corner, vec<T, 3> const& one, vec<T, 3> const& tw
     return detail::solid_angle(abs(dot(u, cross(v, w))), norm(u), norm(v), norm(w), dot(u, v), dot(v, w), dot(w, u));
 }
 
-/// What the four spheres at the corners of a pore leave.
+/// Void of a pore between four spheres, and the force of its pressure on each sphere.
 template <class T>
 struct tetrahedron_shape {
     T void_volume;         ///< m^3; see void_volume()
-    vec<T, 3> traction[4]; ///< on each corner, for 1 Pa: the derivative of the void by the corner's place, m^2
+    vec<T, 3> traction[4]; ///< on each corner, for 1 Pa: derivative of the void by the corner's position, m^2
 };
 
 namespace detail {
 
-/// How much the dihedral angles along the sides of a facet, weighted, change when its corner k moves along the facet's
-/// normal, times twice the facet's area: see measure_pore().
-/// \param at_i, at_j products of the sides that meet in the corners i and j; \param ij, ik, jk weights over lengths
+/// Change of the weighted dihedral angles along the sides of a facet ijk when its corner k moves along the facet's
+/// normal, times twice the facet's area. See measure_pore().
+/// \param at_i, at_j scalar products of the sides that meet at corners i and j
+/// \param ij, ik, jk weight of each side over its length
 template <class T>
 T folding(T const& at_i, T const& at_j, T const& ij, T const& ik, T const& jk) noexcept {
     return at_i * (ij - ik) + at_j * (ij - jk);
@@ -162,24 +166,26 @@ T folding(T const& at_i, T const& at_j, T const& ij, T const& ik, T const& jk) n
 
 } // namespace detail
 
-/// Void and tractions of a pore in space together. Not a number where two centres coincide or three lie on a line.
+/// Void and tractions of a pore in space. Not a number where two centres coincide or three lie on a line.
 ///
-/// A sector is r^3 Omega / 3, the solid angle Omega the sum of the three dihedral angles at the corner less pi: the
-/// sectors are the sum over the edges of (r_i^3 + r_j^3) theta_ij / 3, but for a constant. The dihedral angle along the
-/// edge ij changes with the corner k of a facet ijk by the edge's length over twice the facet's area, along the facet's
-/// normal; with i and j by what keeps it at rigid motions. So each facet adds a vector along its normal to each of its
-/// corners, and these three have no sum. The tractions of a pore have no sum and no moment.
+/// A sector is r^3 Omega / 3. Its solid angle Omega is the sum of the three dihedral angles at the corner less pi. So
+/// the sectors sum to (r_i^3 + r_j^3) theta_ij / 3 over all edges, plus a constant.
+///
+/// Derivatives: in a facet ijk the dihedral angle theta_ij changes with the position of k along the facet's normal, by
+/// the edge's length over twice the facet's area. Its derivatives by i and j follow from invariance under rigid motion.
+/// So each facet adds a vector along its normal to each of its corners, and these three sum to zero. The tractions of a
+/// pore have zero sum and zero moment.
 template <class T>
 tetrahedron_shape<T> measure_pore(vec<T, 3> const& a, vec<T, 3> const& b, vec<T, 3> const& c, vec<T, 3> const& d,
                                   T const& ra, T const& rb, T const& rc, T const& rd) noexcept {
     using V = value_t<T>;
     vec<T, 3> ab = b - a, ac = c - a, ad = d - a, bc = c - b, bd = d - b, cd = d - c;
     T lab = norm(ab), lac = norm(ac), lad = norm(ad), lbc = norm(bc), lbd = norm(bd), lcd = norm(cd);
-    // Outwards, twice the area long; named after the opposite corner.
+    // Outward facet normals of length twice the area, named after the opposite corner.
     vec<T, 3> at_a = cross(bc, bd), at_b = cross(ad, ac), at_c = cross(ab, ad), at_d = cross(ac, ab);
-    T twisted = -dot(at_d, ad), height = abs(twisted);
+    T triple = -dot(at_d, ad), height = abs(triple);
 
-    // Products of the two edges from a corner: a_bc is that of ab and ac.
+    // Scalar products of two edges at a corner: a_bc is that of ab and ac.
     T a_bc = dot(ab, ac), a_cd = dot(ac, ad), a_bd = dot(ab, ad);
     T b_ac = -dot(ab, bc), b_ad = -dot(ab, bd), b_cd = dot(bc, bd);
     T c_ab = dot(ac, bc), c_ad = -dot(ac, cd), c_bd = -dot(bc, cd);
@@ -198,7 +204,7 @@ tetrahedron_shape<T> measure_pore(vec<T, 3> const& a, vec<T, 3> const& b, vec<T,
     vec<T, 3> of_c = at_c * (third / squared_norm(at_c)), of_d = at_d * (third / squared_norm(at_d));
     T sixth = T(V(-1.0 / 6));
     tetrahedron_shape<T> shape;
-    shape.void_volume = twisted * T(V(1.0 / 6)) - sectors * third;
+    shape.void_volume = triple * T(V(1.0 / 6)) - sectors * third;
     shape.traction[0] = at_a * sixth - of_b * detail::folding(c_ad, d_ac, mcd, mac, mad) -
                         of_c * detail::folding(b_ad, d_ab, mbd, mab, mad) -
                         of_d * detail::folding(b_ac, c_ab, mbc, mab, mac);
@@ -214,7 +220,7 @@ tetrahedron_shape<T> measure_pore(vec<T, 3> const& a, vec<T, 3> const& b, vec<T,
     return shape;
 }
 
-/// \name A pore by its corners, in the plane and in space
+/// \name measure_pore() for arrays of centres and radii, in the plane and in space
 /// \{
 template <class T>
 pore_shape<T> measure_simplex(std::array<vec<T, 2>, 3> const& x, std::array<T, 3> const& r) noexcept {
@@ -226,8 +232,8 @@ tetrahedron_shape<T> measure_simplex(std::array<vec<T, 3>, 4> const& x, std::arr
 }
 /// \}
 
-/// Volume of the tetrahedron less the four spherical sectors r^3 Omega / 3 in it; negative where the spheres overlap
-/// too much to leave a void, and for a tetrahedron that has turned over. m^3. Not a number where two centres coincide.
+/// Volume of the tetrahedron less the four spherical sectors r^3 Omega / 3 in it, m^3. Negative where the spheres
+/// overlap too much to leave a void, and for an inverted tetrahedron. Not a number where two centres coincide.
 template <class T>
 T void_volume(vec<T, 3> const& a, vec<T, 3> const& b, vec<T, 3> const& c, vec<T, 3> const& d, T const& ra, T const& rb,
               T const& rc, T const& rd) noexcept {
@@ -245,7 +251,7 @@ T pore_volume(vec<T, 3> const& a, vec<T, 3> const& b, vec<T, 3> const& c, vec<T,
 template <class T>
 struct facet_shape {
     T area;             ///< of the triangle of the centres, m^2
-    T void_area;        ///< what the spheres leave of it, m^2; negative where they overlap too much
+    T void_area;        ///< area less the sectors of the spheres, m^2; negative where they overlap too much
     T hydraulic_radius; ///< void_area over the length of the arcs that bound it, m
 };
 

@@ -17,21 +17,21 @@
 
 namespace lacuna {
 
-/// Division of a body into simplices whose corners are particles: triangles in the plane, tetrahedra in space.
+/// Division of a packing into simplices with corners at particle centres: triangles in the plane, tetrahedra in space.
 template <int Dim>
 struct pore_mesh {
     using simplex = std::array<std::int32_t, std::size_t(Dim) + 1>;
-    /// Particles at the corners, such that simplex_size() is positive: in ascending order but for the last two, which
-    /// change places where that is needed. (In the plane: counter-clockwise, the smallest first.) Rows in ascending
-    /// order.
+    /// Numbers of the particles at the corners. They ascend, except that the last two are swapped where simplex_size()
+    /// would be negative otherwise. (In the plane: counter-clockwise, the smallest number first.) The simplices
+    /// themselves are sorted too.
     std::vector<simplex> simplices;
-    /// neighbours[s][c] is the simplex across the side opposite corner c of simplex s, -1 on the boundary.
+    /// neighbours[s][c] is the simplex across the side opposite corner c of simplex s; -1 on the boundary.
     std::vector<simplex> neighbours;
 
     std::size_t size() const noexcept { return simplices.size(); }
 };
 
-/// Area or volume of a simplex, m^Dim; negative when it has turned over.
+/// Area or volume of a simplex, m^Dim; negative when it is inverted.
 template <class Real, int Dim>
 Real simplex_size(std::array<std::int32_t, std::size_t(Dim) + 1> const& s, points_view<Real, Dim> points) {
     auto const x = [&](std::size_t c) { return points[std::size_t(s[c])]; };
@@ -41,7 +41,7 @@ Real simplex_size(std::array<std::int32_t, std::size_t(Dim) + 1> const& s, point
         return tetrahedron_volume(x(0), x(1), x(2), x(3));
 }
 
-/// What the particles at its corners leave of a simplex, m^Dim; see void_area() and void_volume().
+/// Part of a simplex that the particles at its corners do not fill, m^Dim; see void_area() and void_volume().
 template <class Real, int Dim>
 Real simplex_void(std::array<std::int32_t, std::size_t(Dim) + 1> const& s, points_view<Real, Dim> points,
                   Real const* radii) {
@@ -55,8 +55,8 @@ Real simplex_void(std::array<std::int32_t, std::size_t(Dim) + 1> const& s, point
 
 namespace detail {
 
-/// Sorts the corners; two of them that change places turn the simplex over.
-/// \return whether an odd number of changes was made
+/// Sorts the corners. Each swap of two corners inverts the simplex.
+/// \return whether the number of swaps was odd
 template <std::size_t Count>
 bool sort_corners(std::array<std::int32_t, Count>& corners) noexcept {
     bool odd = false;
@@ -68,8 +68,8 @@ bool sort_corners(std::array<std::int32_t, Count>& corners) noexcept {
     return odd;
 }
 
-/// The corners of a simplex but one, such that they see the simplex on their left (in space: turn counter-clockwise as
-/// seen from outside).
+/// All corners of a simplex except one. In the plane the simplex lies to the left of the line from the first to the
+/// second; in space the three are counter-clockwise as seen from outside the simplex.
 template <std::size_t Count>
 std::array<std::int32_t, Count - 1> side_of(std::array<std::int32_t, Count> const& simplex,
                                             std::size_t corner) noexcept {
@@ -79,23 +79,26 @@ std::array<std::int32_t, Count - 1> side_of(std::array<std::int32_t, Count> cons
     return side;
 }
 
-/// What least volumes go by: see pore_network::size.
+/// Reference for the least volume of a pore, m^Dim; see pore_network::size.
 template <class Real, std::size_t Corners, int Dim = int(Corners) - 1>
 Real reference_size(std::array<std::int32_t, Corners> const& s, points_view<Real, Dim> points, Real const* radii) {
     Real const own = simplex_size(s, points);
     if constexpr (Dim == 2) return own;
     Real least = radii[std::size_t(s[0])];
     for (auto const i : s) least = min(least, radii[std::size_t(i)]);
-    // Of edge 2 r: (2 r)^3 / (6 sqrt 2). Without it a flat tetrahedron would be a pore of any stiffness.
+    // The regular tetrahedron of edge 2 r has the volume (2 r)^3 / (6 sqrt 2). Without this lower limit the stiffness
+    // of the pore in a flat tetrahedron would have no bound.
     return max(own, Real(0.9428090415820634) * least * least * least);
 }
 
-/// A side of a simplex as seen from inside: its particles as side_of() has them.
+/// Centre, outward normal and size of one side of a simplex.
 template <class Real, int Dim>
 struct outer_side {
-    vec<Real, Dim> middle, normal; ///< m; of unit length, outwards
-    Real size;                     ///< m^(Dim - 1)
+    vec<Real, Dim> middle; ///< mean of the corners, m
+    vec<Real, Dim> normal; ///< unit normal, outwards
+    Real size;             ///< length or area, m^(Dim - 1)
 };
+/// \param side corners, in the order in which side_of() returns them
 template <class Real, int Dim>
 outer_side<Real, Dim> look_outwards(std::array<std::int32_t, std::size_t(Dim)> const& side,
                                     points_view<Real, Dim> points) {
@@ -109,7 +112,8 @@ outer_side<Real, Dim> look_outwards(std::array<std::int32_t, std::size_t(Dim)> c
     }
 }
 
-/// How far a point is within a side that side_of() gave, times the side's size: positive on the simplex's side.
+/// Distance of a point from a side that side_of() returned, times the side's length (in space: twice its area), m^Dim.
+/// Positive on the same side as the simplex.
 template <class Real, int Dim>
 Real height_within(std::array<std::int32_t, std::size_t(Dim)> const& side, points_view<Real, Dim> points,
                    vec<Real, Dim> const& at) {
@@ -120,7 +124,7 @@ Real height_within(std::array<std::int32_t, std::size_t(Dim)> const& side, point
         return -dot(cross(x(1) - x(0), x(2) - x(0)), at - x(0));
 }
 
-/// Sorts the simplices and finds who lies across each side.
+/// Sorts the simplices and fills in their neighbours.
 /// \throws std::runtime_error when two simplices lie on the same side of an edge or facet.
 template <int Dim>
 void connect(pore_mesh<Dim>& mesh) {
@@ -163,7 +167,7 @@ void connect(pore_mesh<Dim>& mesh) {
     }
 }
 
-/// Whether a simplex with an open side on the boundary is none of the body's; see peel().
+/// Whether peel() removes a simplex that has an edge with a gap on the boundary: the particles fill it, or it is flat.
 template <class Real, int Dim>
 bool is_sliver(std::array<std::int32_t, std::size_t(Dim) + 1> const& s, points_view<Real, Dim> points,
                Real const* radii) {
@@ -191,40 +195,41 @@ Real mesh_size(pore_mesh<Dim> const& mesh, points_view<Real, Dim> points) {
     return total;
 }
 
-/// The outer sides of a triangulation of scattered particles bridge bays and skim straight rows: they are not part
-/// of the body. This takes away, from outside inwards until none is left, each simplex with a boundary side that
-///   - has an edge longer than `cutoff`, or
-///   - has an edge between two particles that do not touch (gap above 1 % of r_i + r_j) and closes off a simplex that
-///     its particles fill completely (void <= 0): a sliver over a row or a layer of particles; or, in space, one that
-///     is lower than a third of its smallest radius: four particles of a layer, nearly in a plane.
+/// Removes simplices at the boundary of a triangulation that are no pores of the packing. A triangulation fills the
+/// convex hull: it bridges concave parts of the outline and covers straight rows with slivers. Simplices are removed
+/// from outside inwards until none is left that has a boundary side with
+///   - an edge longer than `cutoff`, or
+///   - an edge between two particles that do not touch (gap above 1 % of r_i + r_j), if the simplex is a sliver. It is
+///     one if its particles fill it (void <= 0). In space it is also one if it is lower than a third of its smallest
+///     radius: four particles of one layer, nearly in a plane.
 ///
-/// \param cutoff longest edge on the boundary, m, > 0, infinity allowed; default_cutoff() is twice the mean diameter:
-///        wider than any void of a dense packing, narrower than a missing particle.
+/// \param cutoff longest edge on the boundary, m, > 0, infinity allowed. default_cutoff() is twice the mean diameter:
+///        wider than any void of a dense packing, narrower than the hole that a missing particle leaves.
 /// \throws std::invalid_argument for a cutoff that is not positive.
 template <class Real, int Dim>
 pore_mesh<Dim> peel(pore_mesh<Dim> const& mesh, points_view<Real, Dim> points, Real const* radii, Real cutoff) {
     if (!(cutoff > Real(0))) refuse("cutoff", double(cutoff), "> 0");
     constexpr auto corners = std::size_t(Dim) + 1;
-    std::vector<std::uint8_t> gone(mesh.size(), 0);
+    std::vector<std::uint8_t> removed(mesh.size(), 0);
     auto const outside = [&](std::size_t s, std::size_t corner) {
         auto const side = detail::side_of(mesh.simplices[s], corner);
-        bool open = false;
+        bool has_gap = false;
         for (std::size_t a = 0; a < side.size(); ++a)
             for (std::size_t b = a + 1; b < side.size(); ++b) {
                 auto const i = std::size_t(side[a]), j = std::size_t(side[b]);
                 Real const length = norm(points[j] - points[i]);
                 if (length > cutoff) return true;
-                open = open || length > Real(1.01) * (radii[i] + radii[j]);
+                has_gap = has_gap || length > Real(1.01) * (radii[i] + radii[j]);
             }
-        return open && detail::is_sliver(mesh.simplices[s], points, radii);
+        return has_gap && detail::is_sliver(mesh.simplices[s], points, radii);
     };
     std::vector<std::size_t> front;
     auto const look = [&](std::size_t s) {
-        if (gone[s]) return;
+        if (removed[s]) return;
         for (std::size_t c = 0; c < corners; ++c) {
             auto const other = mesh.neighbours[s][c];
-            if ((other < 0 || gone[std::size_t(other)]) && outside(s, c)) {
-                gone[s] = 1;
+            if ((other < 0 || removed[std::size_t(other)]) && outside(s, c)) {
+                removed[s] = 1;
                 front.push_back(s);
                 return;
             }
@@ -237,14 +242,14 @@ pore_mesh<Dim> peel(pore_mesh<Dim> const& mesh, points_view<Real, Dim> points, R
         for (auto const other : mesh.neighbours[s])
             if (other >= 0) look(std::size_t(other));
     }
-    pore_mesh<Dim> body;
+    pore_mesh<Dim> peeled;
     for (std::size_t s = 0; s < mesh.size(); ++s)
-        if (!gone[s]) body.simplices.push_back(mesh.simplices[s]);
-    detail::connect(body);
-    return body;
+        if (!removed[s]) peeled.simplices.push_back(mesh.simplices[s]);
+    detail::connect(peeled);
+    return peeled;
 }
 
-/// Twice the mean diameter of the particles; infinity where they have none. m.
+/// Twice the mean diameter of the particles, m; infinity if all radii are 0.
 template <class Real>
 Real default_cutoff(Real const* radii, std::size_t count) noexcept {
     Real sum(0);

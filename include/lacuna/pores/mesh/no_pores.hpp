@@ -14,7 +14,8 @@
 
 namespace lacuna {
 
-/// Says why particles have no pores: they are too few, lie on one line (in space: in one plane), or too far apart.
+/// Refuses particles that have no pore between them, and says why: they are too few, lie on one line (in space: in one
+/// plane), or are too far apart.
 /// \throws particle_refusal, always
 template <class Real, int Dim>
 [[noreturn]] void refuse_no_pores(points_view<Real, Dim> points, Real const* radii) {
@@ -23,7 +24,8 @@ template <class Real, int Dim>
         return particle_refusal("number of pores", 0, "at least 1 where there is fluid: " + why, std::move(particles));
     };
     if (points.size() < corners)
-        throw refusal("a pore has " + std::to_string(corners) + " particles around it, and there are " + std::to_string(points.size()));
+        throw refusal("a pore has " + std::to_string(corners) + " particles around it, and there are " +
+                      std::to_string(points.size()));
     auto const all = detail::scale_particles(points, radii);
     auto const text = [&](std::int32_t i) {
         std::string at = "particle # at (";
@@ -34,9 +36,11 @@ template <class Real, int Dim>
     std::int32_t const first = all.particle.front(), last = all.particle.back();
     std::string const ends = text(first) + " to " + text(last);
     if (detail::lie_flat(all))
-        throw refusal("all particles, from " + ends + ", lie " + (Dim == 2 ? "on one line" : "in one plane"), {first, last});
+        throw refusal("all particles, from " + ends + ", lie " + (Dim == 2 ? "on one line" : "in one plane"),
+                      {first, last});
     throw refusal(std::string("no ") + (Dim == 2 ? "three" : "four") + " particles, from " + ends +
-                      ", enclose one: they are too far from each other, or too near to a " + (Dim == 2 ? "line" : "plane"),
+                      ", enclose a pore: they are too far from each other, or too near to a " +
+                      (Dim == 2 ? "line" : "plane"),
                   {first, last});
 }
 

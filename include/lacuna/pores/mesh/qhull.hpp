@@ -20,13 +20,13 @@ extern "C" {
 }
 
 /// \file
-/// The only header that knows Qhull; a program that includes it links qhull_r.
+/// The only header that includes Qhull. A program that includes it must link qhull_r.
 
 namespace lacuna::detail {
 
 static_assert(std::is_same_v<coordT, double>);
 
-/// A place for Qhull's messages: it would write to stderr otherwise.
+/// Collects Qhull's messages, which would go to stderr otherwise.
 class message_file {
 public:
     message_file() {
@@ -57,6 +57,7 @@ private:
     std::size_t size_ = 0;
 };
 
+/// Owns the memory of one run of Qhull.
 struct qhull_memory {
     qhT state;
     explicit qhull_memory(std::FILE* errors) { qh_zero(&state, errors); }
@@ -69,9 +70,9 @@ struct qhull_memory {
     }
 };
 
-/// A convex hull by Qhull.
-/// \param points `count` rows of `dimension` coordinates
-/// \throws std::runtime_error when Qhull gives up.
+/// A convex hull, computed by Qhull.
+/// \param points rows of `dimension` coordinates; must outlive the hull
+/// \throws std::runtime_error when Qhull fails.
 class convex_hull {
 public:
     convex_hull(int dimension, std::vector<double>& points) : memory_(messages_.file()) {
@@ -81,7 +82,7 @@ public:
             throw std::runtime_error("triangulation: " + messages_.first_line());
     }
     qhT* get() noexcept { return &memory_.state; }
-    /// Its volume (in the plane its area).
+    /// Volume of the hull (in the plane its area), in units of the points.
     double size() noexcept {
         qh_getarea(get(), get()->facet_list);
         return get()->totvol;

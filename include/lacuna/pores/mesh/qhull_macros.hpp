@@ -4,8 +4,8 @@
 #include <lacuna/core/standard.hpp>
 
 /// \file
-/// Takes back the macros of Qhull's headers, many of which have common names; those against reading a header twice stay. A
-/// program that uses Qhull itself includes it before Lacuna, and keeps them.
+/// Undefines the macros of Qhull's headers, many of which have common names. Include guards stay defined. A program
+/// that uses Qhull itself includes it before Lacuna, and then keeps its macros.
 
 #undef COUNTmax
 #undef DEFcountT

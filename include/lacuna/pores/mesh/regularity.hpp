@@ -14,12 +14,13 @@
 
 namespace lacuna::detail {
 
-/// Finds out whether simplices are a regular triangulation of sites. They are when
-///   - each has a positive orientation, and across no side lies a corner within its orthogonal sphere;
+/// Tests whether simplices are a regular triangulation of sites. They are if
+///   - each simplex has positive orientation, and its neighbours' opposite corners lie outside its orthogonal sphere;
 ///   - their boundary is one convex surface;
-///   - a site that is no corner lies in the orthogonal sphere of none: it is enough to ask the simplex that it is in.
-/// A sphere is empty when weights that differ by at most 1e-7 of the squared distance of the nearest two of its sites
-/// would make it so: rounding decides between nearly equal diagonals.
+///   - a site that is no corner lies outside all orthogonal spheres. Testing the simplex that contains the site is
+///     enough.
+/// A sphere counts as empty if changing the weights by at most 1e-7 of the squared distance of the nearest two of its
+/// sites would make it empty: rounding may decide between nearly equal diagonals.
 template <int Dim>
 class regularity {
 public:
@@ -41,15 +42,15 @@ public:
 
 private:
     static constexpr auto dim = std::size_t(Dim);
-    using place = vec<double, Dim>;
+    using point = vec<double, Dim>;
     struct ridge {
         std::array<std::int32_t, dim - 1> sites;
         std::size_t side, opposite;
         bool operator<(ridge const& o) const noexcept { return sites < o.sites; }
     };
 
-    place at(std::int32_t site) const noexcept {
-        place x;
+    point at(std::int32_t site) const noexcept {
+        point x;
         for (std::size_t a = 0; a < dim; ++a) x[int(a)] = sign_.sites().x[std::size_t(site)][a];
         return x;
     }
@@ -71,10 +72,10 @@ private:
         return true;
     }
 
-    /// Sine of the angle by which the boundary turns inwards from one side to the next: the third site's height within the
-    /// side over its distance from the ridge. 0 where the four (in the plane: three) span no more than simplices without
-    /// size do, which are left out over straight sides of the hull.
-    double turn(std::array<std::int32_t, dim> const& side, ridge const& from, std::int32_t to) const noexcept {
+    /// Sine of the angle by which the boundary bends inwards at the ridge `from`, between `side` and the next side. It
+    /// is the height of that side's opposite site `to` within `side`, over the distance of `to` from the ridge. 0 if
+    /// these sites span a degenerate simplex: the mesh leaves such simplices out along straight sides of the hull.
+    double inward_sine(std::array<std::int32_t, dim> const& side, ridge const& from, std::int32_t to) const noexcept {
         double longest = 0, within, squares;
         auto const x = at(side[0]);
         for (auto const site : side) longest = std::max(longest, norm(at(to) - at(site)));
@@ -90,9 +91,9 @@ private:
             within = -dot(across, at(to) - x);
             squares = norm(across) * norm(cross(edge, at(to) - at(from.sites[0]))) / norm(edge);
         }
-        bool const none = std::fabs(within) <= 1e-11 * std::pow(longest, Dim) &&
-                          longest < weighted_sites<Dim>::longest_wall(sign_.sites().reach);
-        return none ? 0 : within / squares;
+        bool const degenerate = std::fabs(within) <= 1e-11 * std::pow(longest, Dim) &&
+                                longest < weighted_sites<Dim>::longest_degenerate(sign_.sites().reach);
+        return degenerate ? 0 : within / squares;
     }
 
     bool boundary_is_convex() const {
@@ -116,23 +117,23 @@ private:
             return f;
         };
         std::size_t surfaces = sides.size();
-        double turned = 0;
+        double total_angle = 0;
         for (std::size_t k = 0; k < ridges.size(); k += 2) {
             if (k + 1 == ridges.size() || ridges[k].sites != ridges[k + 1].sites) return false;
             if (k + 2 < ridges.size() && ridges[k].sites == ridges[k + 2].sites) return false;
             auto const &a = ridges[k], &b = ridges[k + 1];
-            double const sine = turn(sides[a.side], a, sides[b.side][b.opposite]);
+            double const sine = inward_sine(sides[a.side], a, sides[b.side][b.opposite]);
             if (!(sine >= -1e-8)) return false;
-            if constexpr (Dim == 2) turned += turned_by(sides[a.side], sides[b.side], sine);
+            if constexpr (Dim == 2) total_angle += angle_between(sides[a.side], sides[b.side], sine);
             auto const one = find(a.side), other = find(b.side);
             surfaces -= one != other;
             root[one] = other;
         }
-        return surfaces == 1 && turned < 7;
+        return surfaces == 1 && total_angle < 7;
     }
-    /// By how much two sides in the plane turn: a boundary that goes round once turns by 2 pi.
-    double turned_by(std::array<std::int32_t, dim> const& a, std::array<std::int32_t, dim> const& b,
-                     double sine) const noexcept {
+    /// Angle from one side to the next in the plane, rad. These angles sum to 2 pi if the boundary goes round once.
+    double angle_between(std::array<std::int32_t, dim> const& a, std::array<std::int32_t, dim> const& b,
+                         double sine) const noexcept {
         return std::atan2(sine, dot(at(a[1]) - at(a[0]), at(b[1]) - at(b[0])) /
                                     (norm(at(a[1]) - at(a[0])) * norm(at(b[1]) - at(b[0]))));
     }
@@ -146,17 +147,17 @@ private:
             if (!seen[p] && !is_hidden(std::int32_t(p), t)) return false;
         return true;
     }
-    /// \param t where the search begins, and where it has ended
+    /// \param t simplex at which the search begins; becomes the one at which it ends
     bool is_hidden(std::int32_t p, std::size_t& t) const {
         for (std::size_t steps = 0; steps <= simplices_.size(); ++steps) {
             std::int32_t next = -1;
             bool inside = true;
             for (std::size_t c = 0; c <= dim && inside; ++c) {
-                auto turned = simplices_[t];
-                turned[c] = p;
-                double const size = sign_.orientation(turned);
+                auto replaced = simplices_[t];
+                replaced[c] = p;
+                double const size = sign_.orientation(replaced);
                 if (size >= 0) continue;
-                // Beyond the hull by no more than rounding: on a straight side of it.
+                // Beyond the hull by rounding only: p lies on a straight side of the hull.
                 next = neighbours_[t][c];
                 if (next < 0 && size > -1e-12 * std::pow(sign_.sites().reach, Dim)) continue;
                 inside = false;

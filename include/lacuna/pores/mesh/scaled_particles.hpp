@@ -20,7 +20,7 @@ namespace lacuna::detail {
 template <int Dim>
 using scaled_point = std::array<double, std::size_t(Dim)>;
 
-/// Orders points along a slanted line: along an axis, rounding would decide on the order of a row.
+/// Key that orders points along a slanted line. Along an axis, rounding would decide on the order within a row.
 template <int Dim>
 double along(scaled_point<Dim> const& x) noexcept {
     double sum = x[0] + 0.6180339887498949 * x[1];
@@ -28,7 +28,7 @@ double along(scaled_point<Dim> const& x) noexcept {
     return sum;
 }
 
-/// Small numbers in no order, from -1 to 1, one for each k.
+/// Pseudorandom number from -1 to 1 for each k (the hash of SplitMix64).
 inline double scatter(std::uint64_t k) noexcept {
     k = (k + 1) * 0x9e3779b97f4a7c15;
     k = (k ^ (k >> 30)) * 0xbf58476d1ce4e5b9;
@@ -39,27 +39,28 @@ inline double scatter(std::uint64_t k) noexcept {
 /// Distinct particles of a triangulation, moved and scaled to fit into a box of side 1 around the origin.
 template <int Dim>
 struct scaled_particles {
-    std::vector<std::int32_t> particle; ///< their numbers
-    std::vector<scaled_point<Dim>> x;   ///< their centres, sorted by along()
+    std::vector<std::int32_t> particle; ///< particle numbers
+    std::vector<scaled_point<Dim>> x;   ///< centres, sorted by along()
     std::vector<double> radius;
     double scale = 0; ///< 1 / m
-    /// The extent, but not more than 64 of the largest radius: one particle far away says nothing about what is near.
+    /// Length scale of tolerances: the extent, but at most 64 times the largest radius. One particle far away must not
+    /// widen the tolerances for all others.
     double reach = 1;
 
-    /// What is added to the height of one, of N.
+    /// Shift of the height |x|^2 - r^2 of particle k.
     ///
-    /// In space Qhull cuts up more than four points on one sphere in a way that leaves flat tetrahedra between the
-    /// others. Heights in general position have no such points.
+    /// In space Qhull divides more than four points on one sphere such that flat tetrahedra lie between the others.
+    /// Shifted heights are in general position and avoid that.
     double shift(std::size_t k) const noexcept {
         if constexpr (Dim == 2) return 0;
         double const most = radius[k] > 0 ? std::min(nudge, 64e-7 * radius[k] * radius[k]) : nudge;
         return most * scatter(k);
     }
-    double nudge = 0; ///< 1e-7 N^(-2/3)
+    double nudge = 0; ///< largest shift: 1e-7 N^(-2/3) for N particles in space
 };
 
-/// How far the points are from lying on one line (in space: in one plane): the height, over the extent, of the largest
-/// simplex that choosing the farthest point time after time gives.
+/// Deviation of points from one line (in space: from one plane), as a share of their extent. It is the height of a
+/// simplex whose corners are chosen one by one, each as far as possible from the span of those before it.
 template <int Dim>
 double flatness(std::vector<scaled_point<Dim>> const& points) {
     std::vector<scaled_point<Dim>> rest(points);
@@ -85,7 +86,8 @@ double flatness(std::vector<scaled_point<Dim>> const& points) {
     return height;
 }
 
-/// The particles that a triangulation sees: of those at one place (up to 1e-10 of the reach) the largest alone.
+/// Scales particles for a triangulation. Of several whose centres coincide (up to 1e-10 of the reach) only the largest
+/// is included.
 template <class Real, int Dim>
 scaled_particles<Dim> scale_particles(points_view<Real, Dim> points, Real const* radii) {
     constexpr auto dim = std::size_t(Dim);
@@ -104,7 +106,7 @@ scaled_particles<Dim> scale_particles(points_view<Real, Dim> points, Real const*
     scaled_particles<Dim> all;
     double const scale = all.scale = extent > 0 ? 1 / extent : 0;
     all.reach = largest > 0 ? std::min(1.0, 64 * largest * scale) : 1.0;
-    auto const place = [&](std::int32_t i) {
+    auto const scaled_position = [&](std::int32_t i) {
         scaled_point<Dim> x;
         for (std::size_t axis = 0; axis < dim; ++axis)
             x[axis] = (double(points(std::size_t(i), int(axis))) - middle[axis]) * scale;
@@ -118,31 +120,31 @@ scaled_particles<Dim> scale_particles(points_view<Real, Dim> points, Real const*
     };
 
     std::vector<std::pair<double, std::int32_t>> order;
-    for (std::int32_t i = 0; i < std::int32_t(points.size()); ++i) order.push_back({along<Dim>(place(i)), i});
+    for (std::int32_t i = 0; i < std::int32_t(points.size()); ++i) order.push_back({along<Dim>(scaled_position(i)), i});
     std::sort(order.begin(), order.end());
     double const same = 1e-10 * all.reach, rounding = 1e-15;
     for (auto const& [key, i] : order) {
         double const radius = double(radii[i]) * scale;
-        bool fresh = true;
-        for (std::size_t k = all.x.size(); fresh && k-- > 0 && key - along<Dim>(all.x[k]) <= 2 * same + rounding;) {
+        bool distinct = true;
+        for (std::size_t k = all.x.size(); distinct && k-- > 0 && key - along<Dim>(all.x[k]) <= 2 * same + rounding;) {
             if (apart(i, all.particle[k]) > same) continue;
-            fresh = false;
+            distinct = false;
             if (radius > all.radius[k]) {
                 all.particle[k] = i;
                 all.radius[k] = radius;
             }
         }
-        if (!fresh) continue;
+        if (!distinct) continue;
         all.particle.push_back(i);
-        all.x.push_back(place(i));
+        all.x.push_back(scaled_position(i));
         all.radius.push_back(radius);
     }
     if (Dim == 3) all.nudge = 1e-7 * std::pow(double(all.x.size()), -2.0 / 3.0);
     return all;
 }
 
-/// Particles as exact signs see them, without rounding their places.
-/// \param shift callable k -> what is added to the height of particle k of the list, m^2
+/// Particles as exact_signs uses them. Scaling by a power of two does not round their positions.
+/// \param shift callable k -> shift of the height |x|^2 - r^2 of particle list[k], m^2
 template <class Real, int Dim, class Shift>
 weighted_sites<Dim> make_sites(std::vector<std::int32_t> const& list, points_view<Real, Dim> points, Real const* radii,
                                Shift const& shift) {
@@ -153,7 +155,7 @@ weighted_sites<Dim> make_sites(std::vector<std::int32_t> const& list, points_vie
         largest = std::max(largest, double(radii[i]));
     }
     double const scale = largest > 0 ? std::ldexp(1.0, -std::ilogb(largest) - 1) : 1;
-    // Below this products of products would be rounded.
+    // Products of products of smaller numbers would underflow, and be exact no more.
     auto const scaled = [&](double length) { return std::fabs(length) * scale < 0x1p-160 ? 0 : length * scale; };
     weighted_sites<Dim> sites;
     for (std::size_t k = 0; k < list.size(); ++k) {
@@ -167,15 +169,15 @@ weighted_sites<Dim> make_sites(std::vector<std::int32_t> const& list, points_vie
     return sites;
 }
 
-/// Whether particles are too few for a simplex, or lie on one line (in space: in one plane). Where one is so far away that
-/// scaled places do not tell the others apart, exact signs have to find out.
+/// Whether particles are too few for a simplex, or lie on one line (in space: in one plane). False if a particle is so
+/// far away that scaled positions do not resolve the others: exact signs decide in that case.
 template <int Dim>
 bool lie_flat(scaled_particles<Dim> const& all) {
     return all.x.size() < std::size_t(Dim) + 1 || (all.reach > 1e-5 && flatness<Dim>(all.x) < 1e-9 * all.reach);
 }
 
-/// Squares of lengths, and squares of them, have to be numbers.
-/// \throws particle_refusal
+/// Refuses positions and radii for which the fourth power of a length might overflow.
+/// \throws particle_refusal for a position outside -1e70 to 1e70 m, or a radius outside 0 to 1e70 m.
 template <class Real, int Dim>
 void require_particles(points_view<Real, Dim> points, Real const* radii) {
     constexpr double most = 1e70;

@@ -24,21 +24,22 @@ namespace lacuna {
 
 namespace detail {
 
-/// Whether a simplex of particles near each other has no size but for rounding.
+/// Whether a simplex of particles that are near each other has zero size up to rounding.
+/// \param reach scaled_particles::reach, in units of `points`
 template <int Dim>
-bool is_wall(std::array<std::int32_t, std::size_t(Dim) + 1> const& corner, points_view<double, Dim> places,
+bool is_degenerate(std::array<std::int32_t, std::size_t(Dim) + 1> const& corner, points_view<double, Dim> points,
              double reach) {
     double longest = 0;
     for (std::size_t a = 0; a < corner.size(); ++a)
         for (std::size_t b = a + 1; b < corner.size(); ++b)
-            longest = std::max(longest, norm(places[std::size_t(corner[b])] - places[std::size_t(corner[a])]));
-    return longest < weighted_sites<Dim>::longest_wall(reach) &&
-           std::fabs(simplex_size<double, Dim>(corner, places)) <=
+            longest = std::max(longest, norm(points[std::size_t(corner[b])] - points[std::size_t(corner[a])]));
+    return longest < weighted_sites<Dim>::longest_degenerate(reach) &&
+           std::fabs(simplex_size<double, Dim>(corner, points)) <=
                1e-12 * (Dim == 2 ? longest * longest : longest * longest * longest);
 }
 
-/// Simplices of the lower hull of (x, |x|^2 - r^2).
-/// \throws std::runtime_error when Qhull gives up, or two simplices lie on the same side of an edge or facet.
+/// Simplices of the lower hull of (x, |x|^2 - r^2), computed by Qhull.
+/// \throws std::runtime_error when Qhull fails, or two simplices lie on the same side of an edge or facet.
 template <int Dim>
 pore_mesh<Dim> lower_hull(scaled_particles<Dim> const& all) {
     constexpr auto dim = std::size_t(Dim);
@@ -57,8 +58,8 @@ pore_mesh<Dim> lower_hull(scaled_particles<Dim> const& all) {
         }
         top = std::max(top, to[dim]);
     }
-    // One more point, high above the middle, closes the hull from above: without it a few points on one circle
-    // would have no volume at all.
+    // One more point, high above the middle, closes the hull from above. Without it points on one circle (in space: on
+    // one sphere) would lie in a plane and have no hull.
     std::copy(middle.begin(), middle.end(), lifted.begin() + std::ptrdiff_t((dim + 1) * count));
     lifted[(dim + 1) * count + dim] = top + 1;
 
@@ -71,9 +72,9 @@ pore_mesh<Dim> lower_hull(scaled_particles<Dim> const& all) {
         for (std::size_t c = 0; c <= dim; ++c)
             corner[c] = std::int32_t(qh_pointid(qh, static_cast<vertexT*>(facet->vertices->e[c].p)->point));
         if (*std::max_element(corner.begin(), corner.end()) == std::int32_t(count)) continue;
-        points_view<double, Dim> const places{all.x.front().data(), count, dim};
-        if (is_wall<Dim>(corner, places, all.reach)) continue;
-        if (simplex_size<double, Dim>(corner, places) < 0) std::swap(corner[0], corner[1]);
+        points_view<double, Dim> const points{all.x.front().data(), count, dim};
+        if (is_degenerate<Dim>(corner, points, all.reach)) continue;
+        if (simplex_size<double, Dim>(corner, points) < 0) std::swap(corner[0], corner[1]);
         for (auto& c : corner) c = all.particle[std::size_t(c)];
         mesh.simplices.push_back(corner);
     }
@@ -81,16 +82,16 @@ pore_mesh<Dim> lower_hull(scaled_particles<Dim> const& all) {
     return mesh;
 }
 
-/// Takes away what has no size but for rounding, from outside: simplices over a straight side of the hull.
+/// Removes, from outside inwards, simplices of zero size up to rounding. They lie over straight sides of the hull.
 template <int Dim>
-void strip_walls(pore_mesh<Dim>& mesh, points_view<double, Dim> places, double reach) {
-    std::vector<std::uint8_t> gone(mesh.size(), 0);
+void strip_degenerate(pore_mesh<Dim>& mesh, points_view<double, Dim> points, double reach) {
+    std::vector<std::uint8_t> removed(mesh.size(), 0);
     std::vector<std::size_t> front;
     auto const look = [&](std::size_t s) {
         bool outer = false;
-        for (auto const other : mesh.neighbours[s]) outer = outer || other < 0 || gone[std::size_t(other)];
-        if (gone[s] || !outer || !is_wall(mesh.simplices[s], places, reach)) return;
-        gone[s] = 1;
+        for (auto const other : mesh.neighbours[s]) outer = outer || other < 0 || removed[std::size_t(other)];
+        if (removed[s] || !outer || !is_degenerate(mesh.simplices[s], points, reach)) return;
+        removed[s] = 1;
         front.push_back(s);
     };
     for (std::size_t s = 0; s < mesh.size(); ++s) look(s);
@@ -100,19 +101,20 @@ void strip_walls(pore_mesh<Dim>& mesh, points_view<double, Dim> places, double r
         for (auto const other : mesh.neighbours[s])
             if (other >= 0) look(std::size_t(other));
     }
-    std::size_t kept = 0;
+    std::size_t count = 0;
     for (std::size_t s = 0; s < mesh.size(); ++s)
-        if (!gone[s]) mesh.simplices[kept++] = mesh.simplices[s];
-    mesh.simplices.resize(kept);
+        if (!removed[s]) mesh.simplices[count++] = mesh.simplices[s];
+    mesh.simplices.resize(count);
 }
 
-/// The same simplices as lower_hull(), by exact signs.
+/// The same simplices as lower_hull(), computed with exact signs.
 template <int Dim>
 pore_mesh<Dim> exact_hull(scaled_particles<Dim> const& all, weighted_sites<Dim> const& sites) {
     pore_mesh<Dim> mesh;
     mesh.simplices = incremental_triangulation<Dim>(sites).simplices();
     connect(mesh);
-    strip_walls(mesh, points_view<double, Dim>{sites.x.front().data(), sites.size(), std::size_t(Dim)}, sites.reach);
+    points_view<double, Dim> const points{sites.x.front().data(), sites.size(), std::size_t(Dim)};
+    strip_degenerate(mesh, points, sites.reach);
     for (auto& s : mesh.simplices)
         for (auto& corner : s) corner = all.particle[std::size_t(corner)];
     connect(mesh);
@@ -127,30 +129,31 @@ bool is_regular(pore_mesh<Dim> const& mesh, scaled_particles<Dim> const& all, we
     return regularity<Dim>(mesh, sites, index).holds();
 }
 
-/// Particles of a body that others of them are near, and their simplices.
+/// A group of particles that is triangulated by itself, and its simplices.
 template <int Dim>
-struct body_part {
-    std::vector<std::int32_t> particle;
-    pore_mesh<Dim> mesh; ///< corners are particles of the whole
+struct mesh_part {
+    std::vector<std::int32_t> particle; ///< in ascending order
+    pore_mesh<Dim> mesh;                ///< corners are numbered as in the whole packing
 };
 
 } // namespace detail
 
 /// Regular (radius-weighted Delaunay) triangulation of discs or spheres: the lower hull of (x, |x|^2 - r^2). It covers
-/// the convex hull of the centres; two particles that touch share an edge, unless a third overlaps them where they
-/// meet.
+/// the convex hull of the centres. Two particles that touch share an edge, unless a third overlaps their contact.
 ///
-/// A particle that is overlapped so much that its power cell is empty is a corner of no simplex; of particles at one
-/// place (up to 1e-10 of the reach: the extent, but at most 64 of the largest radius) only the largest is. Fewer than
-/// Dim + 1 particles, or particles on a line (in space: in a plane; up to 1e-9 of the reach), give an empty mesh. Where
-/// more than Dim + 1 lie on one circle or sphere, a rule that looks at the particles' places alone decides on the
-/// diagonals: in the plane Qhull's, in space heights shifted by up to 1e-7 N^(-2/3) of the squared extent, N the number
-/// of particles, and at most by 6.4e-6 r^2; simplices then stay clear of the other particles up to that much. (In space
-/// nearly flat tetrahedra within the body belong to a regular triangulation; they are pores of hardly any volume.)
+/// The reach below is the extent of the packing, but at most 64 times the largest radius.
+///   - A particle is a corner of no simplex if others overlap it so much that its power cell is empty.
+///   - If the centres of several particles coincide (up to 1e-10 of the reach), only the largest becomes a corner.
+///   - Fewer than Dim + 1 particles give an empty mesh. So do particles on a line (in space: in a plane), up to 1e-9 of
+///     the reach.
+///   - If more than Dim + 1 particles lie on one circle or sphere, the choice of diagonals depends on the positions
+///     alone. In the plane Qhull chooses. In space heights are shifted by up to 1e-7 N^(-2/3) of the squared extent
+///     (N: number of particles), and at most by 6.4e-6 r^2; orthogonal spheres are empty of other particles up to that.
+///   - In space a regular triangulation may contain nearly flat tetrahedra in the interior: pores of hardly any volume.
 ///
-/// What Qhull gives is checked (see detail::regularity). It rounds by some 1e-15 of the squared extent: where that
-/// is too much, as with one particle far away or radii of very different size, the particles are triangulated by exact
-/// signs instead, which takes several times as long. Thread-safe.
+/// Qhull's result is checked (see detail::regularity), since Qhull rounds by some 1e-15 of the squared extent. That is
+/// too much for a particle far away from the others, or for radii of very different size. In such cases exact signs
+/// repeat the triangulation, which takes several times as long. Thread-safe.
 ///
 /// \param points centres, m, within 1e70 m
 /// \param radii one per point, m, >= 0
@@ -170,14 +173,14 @@ pore_mesh<Dim> regular_triangulation(points_view<Real, Dim> points, Real const* 
         auto mesh = detail::lower_hull(all);
         if (detail::is_regular(mesh, all, sites)) return mesh;
     } catch (std::runtime_error const&) {
-        // Qhull gives up, or its simplices overlap.
+        // Qhull failed, or its simplices overlap: exact signs handle both.
     }
     return detail::exact_hull(all, sites);
 }
 
 namespace detail {
 
-/// The simplices of some particles, peeled.
+/// Triangulates some of the particles by themselves and peels the result. Corners are numbered as in the whole packing.
 template <class Real, int Dim>
 pore_mesh<Dim> triangulate_part(std::vector<std::int32_t> const& part, points_view<Real, Dim> points, Real const* radii,
                                 Real cutoff) {
@@ -193,10 +196,10 @@ pore_mesh<Dim> triangulate_part(std::vector<std::int32_t> const& part, points_vi
     return mesh;
 }
 
-/// Unites a part with the others whose particles are in the orthogonal spheres of its simplices.
-/// \return whether there were any
+/// Unites a part with each group that has a particle inside the orthogonal sphere of one of the part's simplices.
+/// \return whether any group was united
 template <class Real, int Dim>
-bool unite_broken(pore_mesh<Dim> const& mesh, exact_signs<Dim> const& signs, close_groups<Real, Dim>& groups,
+bool unite_overlapping(pore_mesh<Dim> const& mesh, exact_signs<Dim> const& signs, close_groups<Real, Dim>& groups,
                   points_view<Real, Dim> points, Real const* radii, double largest_radius) {
     bool any = false;
     for (auto const& s : mesh.simplices) {
@@ -212,12 +215,14 @@ bool unite_broken(pore_mesh<Dim> const& mesh, exact_signs<Dim> const& signs, clo
 
 } // namespace detail
 
-/// The pores' simplices of a body: regular_triangulation(), then peel() with the given or the default cutoff.
+/// The simplices that become pores: regular_triangulation(), then peel() with the given or the default cutoff.
 ///
-/// Particles farther from all others than eight times the cutoff, and than sixteen times the largest radius, are
-/// triangulated by themselves: no number of theirs enters the others' triangulation. Where one of their particles is in
-/// the orthogonal sphere of another's simplex, as one in the middle of a ring, the two are triangulated as one.
-/// \param cutoff longest edge of the body's boundary, m; 0 for default_cutoff().
+/// A group of particles is triangulated by itself if its distance from all others exceeds both eight times the cutoff
+/// and sixteen times the largest radius. Its coordinates then do not affect the triangulation of the others. Two groups
+/// are triangulated together if a particle of one is inside the orthogonal sphere of a simplex of the other, such as a
+/// particle in the middle of a ring.
+/// \param points centres, m; \param radii one per point, m, >= 0
+/// \param cutoff longest edge on the boundary of the mesh, m; 0 for default_cutoff().
 /// \throws std::invalid_argument for a value that is not finite, or out of range
 template <class Real, int Dim>
 pore_mesh<Dim> triangulate_body(points_view<Real, Dim> points, Real const* radii, Real cutoff = Real(0)) {
@@ -232,18 +237,18 @@ pore_mesh<Dim> triangulate_body(points_view<Real, Dim> points, Real const* radii
     auto lists = groups.list();
     if (lists.size() == 1) return whole();
 
-    std::vector<std::int32_t> everyone(points.size());
-    for (std::size_t i = 0; i < everyone.size(); ++i) everyone[i] = std::int32_t(i);
-    auto const sites = detail::make_sites(everyone, points, radii, [](std::size_t) { return 0.0; });
+    std::vector<std::int32_t> all_particles(points.size());
+    for (std::size_t i = 0; i < all_particles.size(); ++i) all_particles[i] = std::int32_t(i);
+    auto const sites = detail::make_sites(all_particles, points, radii, [](std::size_t) { return 0.0; });
     detail::exact_signs<Dim> const signs(sites);
-    std::vector<detail::body_part<Dim>> parts;
+    std::vector<detail::mesh_part<Dim>> parts;
     for (bool again = true; again; lists = groups.list()) {
         again = false;
-        std::vector<detail::body_part<Dim>> next;
+        std::vector<detail::mesh_part<Dim>> next;
         auto known = parts.begin();
         for (auto& list : lists) {
             if (list.size() < std::size_t(Dim) + 1) continue;
-            // Parts come in the order of their first particles, and only grow.
+            // Both lists are sorted by first particle, and a part only ever grows: an unchanged one is reused.
             while (known != parts.end() && known->particle[0] < list[0]) ++known;
             if (known != parts.end() && known->particle == list) {
                 next.push_back(std::move(*known++));
@@ -254,13 +259,13 @@ pore_mesh<Dim> triangulate_body(points_view<Real, Dim> points, Real const* radii
         }
         parts = std::move(next);
         for (auto const& part : parts)
-            again = detail::unite_broken(part.mesh, signs, groups, points, radii, largest) || again;
+            again = detail::unite_overlapping(part.mesh, signs, groups, points, radii, largest) || again;
     }
-    pore_mesh<Dim> body;
+    pore_mesh<Dim> mesh;
     for (auto const& part : parts)
-        body.simplices.insert(body.simplices.end(), part.mesh.simplices.begin(), part.mesh.simplices.end());
-    detail::connect(body);
-    return body;
+        mesh.simplices.insert(mesh.simplices.end(), part.mesh.simplices.begin(), part.mesh.simplices.end());
+    detail::connect(mesh);
+    return mesh;
 }
 
 } // namespace lacuna
