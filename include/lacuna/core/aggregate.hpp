@@ -12,15 +12,15 @@
 #include <lacuna/core/vec.hpp>
 
 /// \file
-/// The members of an aggregate, one by one, and their names: what parameters and states consist of, without a list that
-/// could forget one. The language takes no struct apart that has a base with members: such a one lists them itself, in
-/// `template <class Visit> void for_each_named(Visit const& visit)` by visit("name", member).
+/// Visits the members of an aggregate, with their names. Parameters and states need no list of members, which could be
+/// incomplete. C++ cannot decompose a struct whose base class has members: such a struct lists them itself, in
+/// `template <class Visit> void for_each_named(Visit const& visit)`, by calls visit("name", member).
 
 namespace lacuna {
 
 namespace detail {
 
-/// Stands for a value of any type, in a question to the compiler alone.
+/// Converts to any type, in unevaluated expressions only.
 struct any_value {
     template <class T>
     operator T() const noexcept;
@@ -44,8 +44,8 @@ inline constexpr bool is_vec<vec<T, N>> = true;
 
 } // namespace detail
 
-/// use(members...) with all members of an aggregate, in their order.
-/// \tparam A an aggregate without base classes and arrays of C, of at most 24 members
+/// Calls use(members...) with all members of an aggregate, in their order.
+/// \tparam A an aggregate of at most 24 members, without base classes and C arrays
 template <class A, class Use>
 constexpr decltype(auto) with_members(A& value, Use const& use) {
     constexpr std::size_t n = detail::count_members<std::remove_const_t<A>>();
@@ -133,11 +133,11 @@ struct any_visit {
     template <class T>
     void operator()(std::string_view, T&) const noexcept;
 };
-/// Whether a struct lists its members itself.
+/// True if a struct lists its members itself.
 template <class A>
 concept names_its_members = requires(A& value) { value.for_each_named(any_visit{}); };
 
-/// Takes an archive's place in `serialize`.
+/// Stands in for an archive in `serialize` and lists its members.
 template <class Visit>
 struct member_lister {
     using is_loading = std::false_type;
@@ -150,9 +150,10 @@ struct member_lister {
     }
 };
 
-// The compiler spells a member's address with its name. No value is ever made.
+// __PRETTY_FUNCTION__ contains a member's name if a template argument is the member's address. No value of A is ever
+// constructed.
 template <class A>
-struct named_place {
+struct named_object {
     A value;
 };
 #if defined(__clang__)
@@ -161,21 +162,21 @@ struct named_place {
 #pragma clang diagnostic ignored "-Wundefined-internal"
 #endif
 template <class A>
-extern named_place<A> const unmade;
+extern named_object<A> const unmade;
 template <class Pointer>
-struct spelled_place {
+struct spelled_address {
     Pointer to;
 };
 template <class Pointer>
-spelled_place(Pointer) -> spelled_place<Pointer>;
+spelled_address(Pointer) -> spelled_address<Pointer>;
 template <std::size_t I, class A>
 constexpr auto address_of_member(A const& value) {
     return with_members(value, [](auto const&... member) { return std::get<I>(std::tuple{&member...}); });
 }
-template <auto Place>
+template <auto Address>
 constexpr std::string_view last_name() {
     std::string_view text = __PRETTY_FUNCTION__;
-    // "... Place = place<...>{(& unmade<A>.named_place<A>::value.A::name)}; ...]" or "... {&unmade.value.name}]"
+    // "... Address = ...{(& unmade<A>.named_object<A>::value.A::name)}; ...]" or "... {&unmade.value.name}]"
     text = text.substr(0, text.rfind('}'));
     while (text.back() == ')') text.remove_suffix(1);
     std::size_t first = text.size();
@@ -187,7 +188,7 @@ constexpr std::string_view last_name() {
 }
 template <class A, std::size_t... I>
 constexpr std::array<std::string_view, sizeof...(I)> names_of(std::index_sequence<I...>) {
-    return {last_name<spelled_place{address_of_member<I>(unmade<A>.value)}>()...};
+    return {last_name<spelled_address{address_of_member<I>(unmade<A>.value)}>()...};
 }
 #if defined(__clang__)
 #pragma clang diagnostic pop
@@ -195,7 +196,7 @@ constexpr std::array<std::string_view, sizeof...(I)> names_of(std::index_sequenc
 
 } // namespace detail
 
-/// Calls visit(member) for each member of an aggregate, in their order; for the components of a vec.
+/// Calls visit(member) for each member of an aggregate, or each component of a vec, in their order.
 /// \tparam A see with_members(); or a struct that names its members itself
 template <class A, class Visit>
 void for_each_member(A& value, Visit const& visit) {
@@ -209,15 +210,15 @@ void for_each_member(A& value, Visit const& visit) {
     }
 }
 
-/// Names of an aggregate's members, in their order, as they are declared.
+/// The names of an aggregate's members, in the order of their declaration.
 /// \tparam A see with_members()
 template <class A>
 constexpr auto member_names() {
     return detail::names_of<A>(std::make_index_sequence<detail::count_members<A>()>{});
 }
 
-/// Calls visit(name, member) for each member of an aggregate, in their order; of a struct that only says how it is kept in
-/// a checkpoint, with their numbers for names.
+/// Calls visit(name, member) for each member of an aggregate, in their order. Members of a struct that has `serialize`
+/// but no list of names are called "member 0", "member 1" and so on.
 template <class A, class Visit>
 void for_each_named_member(A& value, Visit const& visit) {
     if constexpr (detail::names_its_members<std::remove_const_t<A>>) {

@@ -14,7 +14,7 @@
 
 namespace lacuna {
 
-/// Where two values differ, and what stands there in each, as text.
+/// The member in which two values differ, and its text in each.
 struct difference {
     std::string path; ///< "materials[0].contact.friction"
     std::string first, second;
@@ -35,11 +35,12 @@ inline constexpr bool is_optional = false;
 template <class T>
 inline constexpr bool is_optional<std::optional<T>> = true;
 
-/// \param none what stands for nothing given
+/// The text of one value.
+/// \param none text of an empty optional
 template <class T>
 std::string value_text(T const& value, std::string_view none) {
     if constexpr (requires { std::string(word_of(value)); })
-        return std::string(word_of(value)); // of an enumeration: found beside it
+        return std::string(word_of(value)); // an enumeration; argument-dependent lookup finds the function
     else if constexpr (std::is_same_v<T, bool>)
         return value ? "true" : "false";
     else if constexpr (std::is_enum_v<T>)
@@ -58,9 +59,9 @@ std::string value_text(T const& value, std::string_view none) {
 
 } // namespace detail
 
-/// The first place where two values of one type differ, member by member, entry by entry; not-a-number is itself.
-/// \param path of the values
-/// \param none text of an optional value that is not there
+/// The first difference of two values of one type, member by member and entry by entry. Two not-a-numbers are equal.
+/// \param path of the values, the beginning of the path in the result
+/// \param none text of an empty optional
 template <class T>
 std::optional<difference> first_difference(T const& a, T const& b, std::string const& path,
                                            std::string_view none = "none") {

@@ -7,7 +7,7 @@
 
 namespace lacuna {
 
-/// A number with its derivatives by N variables (forward differentiation): gives a law's exact tangent.
+/// A number with its derivatives by N variables (forward differentiation). It gives the exact tangent of a law.
 template <class T, int N>
 struct dual {
     T value{};
@@ -15,7 +15,7 @@ struct dual {
 
     constexpr dual() = default;
     constexpr dual(T v) noexcept : value(v) {} // NOLINT: a plain number is a dual with zero derivatives
-    /// The variable `index`, at value v.
+    /// The variable number `index`, with value v and derivative 1 by itself.
     static constexpr dual variable(T v, int index) noexcept {
         dual r(v);
         r.derivative[index] = T(1);

@@ -2,8 +2,8 @@
 #pragma once
 
 /// \file
-/// Eigen's sparse matrices and their factorisation. To be included instead of Eigen's own headers, for one reason: g++ 12
-/// takes the registers of Eigen's AVX-512 code for uninitialized.
+/// Eigen's sparse matrices and their factorisation. Include this file instead of Eigen's own headers: it suppresses a
+/// false warning of g++ 12, which takes registers in Eigen's AVX-512 code for uninitialized.
 
 #include <lacuna/core/standard.hpp>
 

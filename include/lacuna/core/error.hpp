@@ -12,13 +12,13 @@
 
 namespace lacuna {
 
-/// A run that left the range in which its results mean anything: not-a-number, runaway energy, an overlap
-/// beyond a radius, a particle that moves more than a tenth of its radius in a step.
+/// A simulation has become unstable, so that its results are meaningless: not-a-number, runaway energy, an overlap
+/// beyond a radius, or a particle that moves more than a tenth of its radius in a step.
 class unstable_run : public std::runtime_error {
 public:
-    /// \param what the message, complete
-    /// \param step the time step at which it was found
-    /// \param particle stable id of the particle concerned, -1 when it is none in particular
+    /// \param what the complete message
+    /// \param step number of the time step in which it was found
+    /// \param particle id of the particle concerned, -1 if there is none
     unstable_run(std::string const& what, long long step, long long particle)
         : std::runtime_error(what), step_(step), particle_(particle) {}
     long long step() const noexcept { return step_; }
@@ -29,11 +29,12 @@ private:
     long long particle_;
 };
 
-/// Shortest decimal form of at least six digits that reads back to the same value, whatever the locale is.
+/// Decimal form with the fewest significant digits, but at least six, that reads back to the same value. It ignores the
+/// locale.
 inline std::string to_text(double value) {
     char buffer[32];
     char* end = std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::scientific).ptr;
-    // No fewer digits than the shortest form has will do; the nearest decimal of as many nearly always does.
+    // Fewer digits than the shortest form never suffice; the nearest decimal with as many digits almost always does.
     int const least = int(std::count_if(buffer, std::find(buffer, end, 'e'), [](char c) { return c >= '0' && c <= '9'; }));
     for (int digits = std::max(6, least); digits <= 17; ++digits) {
         end = std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::general, digits).ptr;
@@ -58,13 +59,13 @@ inline void require_finite(std::string_view field, double value) {
 }
 inline void require_positive(std::string_view field, double value) {
     if (!(value > 0) || !std::isfinite(value)) refuse(field, value, "> 0 and finite");
-    // Others are divided by it.
+    // Other values are divided by it.
     if (!std::isfinite(1 / value)) refuse(field, value, "at least 1e-300");
 }
 inline void require_not_negative(std::string_view field, double value) {
     if (!(value >= 0) || !std::isfinite(value)) refuse(field, value, ">= 0 and finite");
 }
-/// A limit that may be "never": not negative, infinity allowed.
+/// A limit: not negative; infinity is allowed and means "never".
 inline void require_limit(std::string_view field, double value) {
     if (!(value >= 0)) refuse(field, value, ">= 0");
 }

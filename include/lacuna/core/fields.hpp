@@ -10,16 +10,16 @@
 #include <lacuna/core/records.hpp>
 
 /// \file
-/// Aggregates made of one scalar type only (a law's parameters and history), seen as rows of numbers.
+/// Access to aggregates of one scalar type (a law's parameters and history) as rows of numbers.
 
 namespace lacuna {
 
-/// An aggregate template that holds nothing but members of type T (and vec of T).
+/// Number of scalars in an aggregate template that has only members of type T (and vec of T).
 template <template <class> class Aggregate, class T>
 inline constexpr std::size_t field_count = sizeof(Aggregate<T>) / sizeof(T);
 
 namespace detail {
-/// Member number f of an aggregate of T. Copies by whole aggregates would go through memory; single members stay in
+/// Scalar number f of an aggregate of T. Copies of whole aggregates would go through memory; single members stay in
 /// registers.
 template <class T, class Aggregate>
 auto& field(Aggregate& aggregate, std::size_t f) noexcept {
@@ -31,7 +31,7 @@ auto& field(Aggregate& aggregate, std::size_t f) noexcept {
 } // namespace detail
 
 /// The same aggregate in another scalar type, field by field.
-/// \param convert from the source's scalar to the target's
+/// \param convert callable: scalar of the source -> scalar of the target
 template <class To, class From, class Target, class Source, class Convert>
 Target convert_fields(Source const& source, Convert const& convert) noexcept {
     constexpr std::size_t count = sizeof(Source) / sizeof(From);
@@ -47,8 +47,8 @@ Target convert_fields(Source const& source, Convert const& convert) noexcept {
     return target;
 }
 
-/// Rows of aggregates stored pack by pack: [pack][field][lane], so that one pack of pairs reads its fields from
-/// one place, each with one load.
+/// An array of aggregates stored pack by pack, as [pack][field][lane]: the fields of one pack of pairs are contiguous,
+/// and each takes one load.
 template <template <class> class Aggregate, class Real, int W>
 class field_packs {
 public:
@@ -63,7 +63,7 @@ public:
         for (std::size_t f = 0; f < fields; ++f) detail::field<lanes>(r, f) = lanes::load(from + f * W);
         return r;
     }
-    /// Asks the memory for a pack; one beyond the end does no harm.
+    /// Prefetches a pack; an index beyond the end is harmless.
     void prefetch(std::size_t p) const noexcept {
         lacuna::prefetch(data_.data() + p * fields * W, fields * sizeof(lanes));
     }
@@ -71,7 +71,7 @@ public:
         Real* to = data_.data() + p * fields * W;
         for (std::size_t f = 0; f < fields; ++f) detail::field<lanes>(value, f).store(to + f * W);
     }
-    /// Entry `k` of all, W to a pack.
+    /// Entry `k`; entries are counted across packs, W in each.
     Aggregate<Real> get(std::size_t k) const noexcept {
         std::array<Real, fields> row;
         for (std::size_t f = 0; f < fields; ++f) row[f] = data_[(k / W * fields + f) * W + k % W];

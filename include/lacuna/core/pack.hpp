@@ -13,11 +13,11 @@
 #include <lacuna/core/scalar.hpp>
 
 /// \file
-/// A row of W numbers that one instruction handles, for the loops over pairs and particles.
-/// The only header with processor-specific code.
+/// A row of W numbers that one instruction handles, for loops over pairs and particles. Only this header has
+/// processor-specific code.
 
-// Packs wider than the target's registers (records of four doubles without AVX) are never part of an interface
-// between separately compiled objects: the compilers' warning about their calling convention does not apply.
+// Compilers warn about the calling convention of packs wider than the target's registers (records of four doubles
+// without AVX). The warning does not apply: they are never part of an interface between separately compiled objects.
 #if defined(__clang__)
 #pragma clang diagnostic push
 #pragma clang diagnostic ignored "-Wpsabi"
@@ -55,7 +55,7 @@ struct pack_mask {
     using native = typename detail::native_vector<lane_type, sizeof(T) * W>::type;
     native bits;
 
-    /// A formula cannot branch by its lanes, which may differ.
+    /// Refuses `if (a < b)`, as lanes may differ.
     template <std::same_as<bool> Bool>
     explicit operator Bool() const noexcept {
         static_assert(!std::same_as<Bool, bool>, "a formula decides lane by lane: select(condition, a, b), max and min stand for if and ?:");
@@ -79,17 +79,17 @@ struct pack {
 
     pack() = default;
     pack(native const& x) noexcept : v(x) {} // NOLINT: the register type is the pack
-    pack(T x) noexcept {              // NOLINT: a plain number is the same in all lanes
-        v = x - native{}; // x - 0 is x to the compiler; 0 + x is not, when x may be -0
+    pack(T x) noexcept {              // NOLINT: a plain number converts to a pack with this value in all lanes
+        v = x - native{}; // the compiler folds x - 0 to x, but not 0 + x, which differs for x = -0
     }
-    /// W consecutive numbers from memory of any alignment.
+    /// Loads W consecutive numbers; the address may have any alignment.
     static pack load(T const* from) noexcept {
         pack r;
         __builtin_memcpy(&r.v, from, sizeof(native));
         return r;
     }
     void store(T* to) const noexcept { __builtin_memcpy(to, &v, sizeof(native)); }
-    /// Numbers base[index[0]], base[index[1]], ...
+    /// Loads base[index[0]], base[index[1]], ...
     template <class Index>
     static pack gather(T const* base, Index const* index) noexcept {
         pack r;
@@ -122,10 +122,10 @@ struct value_of<pack<T, W>> {
 };
 
 /// \def LACUNA_BEGIN_PACKS
-/// Opens a namespace that is part of lacuna and named after the width of packs; LACUNA_END_PACKS closes it. Classes whose
-/// layout goes by native_width stand in it: objects compiled for other registers (-march) cannot be linked with each other
-/// where they share such a class, as their names differ. Still compile all of a program with one -march: functions that do
-/// not go by the width have the same names in all objects.
+/// Opens an inline namespace of lacuna that is named after the width of packs; LACUNA_END_PACKS closes it. It contains
+/// the classes whose layout depends on native_width. Objects that are compiled for different registers (-march) and
+/// share such a class do not link, because its names differ. Still compile a whole program with one -march: functions
+/// that do not depend on the width have the same names in all objects.
 #if defined(__AVX512F__)
 #define LACUNA_BEGIN_PACKS inline namespace packs_of_64_bytes {
 #elif defined(__AVX__)
@@ -135,7 +135,7 @@ struct value_of<pack<T, W>> {
 #endif
 #define LACUNA_END_PACKS }
 
-/// How many numbers of type T the widest register of the target holds.
+/// Number of values of type T that fit into the widest register of the target.
 template <class T>
 inline constexpr int native_width =
 #if defined(__AVX512F__)
@@ -165,7 +165,7 @@ pack<T, W> abs(pack<T, W> const& a) noexcept {
 
 template <class T, int W>
 pack<T, W> sqrt(pack<T, W> const& a) noexcept {
-    // A loop over std::sqrt keeps a test for errno per lane unless the program is built with -fno-math-errno.
+    // A loop over std::sqrt would test errno for each lane, unless the program is built with -fno-math-errno.
 #if defined(__AVX512F__)
     if constexpr (std::is_same_v<T, double> && W == 8) return pack<T, W>(typename pack<T, W>::native(_mm512_maskz_sqrt_pd(__mmask8(-1), a.v)));
     if constexpr (std::is_same_v<T, float> && W == 16) return pack<T, W>(typename pack<T, W>::native(_mm512_maskz_sqrt_ps(__mmask16(-1), a.v)));
@@ -183,7 +183,7 @@ pack<T, W> sqrt(pack<T, W> const& a) noexcept {
     return r;
 }
 
-/// Lane by lane with the standard library: the same bits as for a plain number.
+/// Calls the standard library lane by lane, so that the bits are those of a plain number.
 template <class T, int W>
 pack<T, W> exp(pack<T, W> const& a) noexcept {
     pack<T, W> r;

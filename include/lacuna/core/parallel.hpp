@@ -9,8 +9,8 @@
 
 namespace lacuna {
 
-/// Calls body(c) for c in [0, count), on up to `threads` threads when the program is built with OpenMP.
-/// The chunks must not depend on each other; which thread runs which is left open.
+/// Calls body(c) for c in [0, count), on up to `threads` threads when the program is built with OpenMP. The chunks must
+/// not depend on each other; any thread may run any chunk.
 template <class Body>
 void for_each_chunk(int count, [[maybe_unused]] int threads, Body const& body) {
 #ifdef _OPENMP

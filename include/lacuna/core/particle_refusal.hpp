@@ -13,18 +13,19 @@
 
 namespace lacuna {
 
-/// A refusal that names particles, by their places in the arrays that were given. Who knows them by other numbers, as a
-/// simulation that has sorted them, says it again with those: see named().
+/// A refusal that names particles by their indices in the given arrays. A caller that knows them by other numbers, such
+/// as a simulation that has sorted them, rethrows it with those numbers: see named().
 class particle_refusal : public std::invalid_argument {
 public:
-    /// "field = value: must be rule", as refuse() says it.
-    /// \param particles whose numbers stand for each `#` of field and rule, in this order
+    /// "field = value: must be rule", the message of refuse().
+    /// \param particles indices that replace each `#` of the text, in this order
     particle_refusal(std::string_view field, std::string_view value, std::string_view rule, std::vector<std::int32_t> particles)
         : particle_refusal(std::string(field) + " = " + std::string(value) + ": must be " + std::string(rule), std::move(particles)) {}
     particle_refusal(std::string_view field, double value, std::string_view rule, std::vector<std::int32_t> particles)
         : particle_refusal(field, to_text(value), rule, std::move(particles)) {}
 
-    /// The same with other numbers. \param name callable: place of a particle -> the number that the caller knows it by
+    /// The same refusal with other numbers.
+    /// \param name callable: index of a particle -> the caller's number of that particle
     template <class Name>
     particle_refusal named(Name const& name) const {
         std::vector<std::int32_t> numbers;

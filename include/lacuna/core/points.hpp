@@ -14,8 +14,8 @@
 
 namespace lacuna {
 
-/// Read-only view of `count` points whose Dim coordinates lie next to each other, `stride` scalars apart
-/// from one point to the next: the positions of a particle store, or of a plain array of vectors. In m.
+/// Read-only view of `count` points, in m: the positions of a particle store or a plain array of vectors. The Dim
+/// coordinates of a point are contiguous; consecutive points are `stride` scalars apart.
 template <class Real, int Dim>
 struct points_view {
     Real const* data = nullptr;
@@ -32,7 +32,7 @@ struct points_view {
     }
 };
 
-/// A place or a way in a message: "(0.5, 2)".
+/// A position or displacement as text for a message: "(0.5, 2)".
 template <class T, int N>
 std::string to_text(vec<T, N> const& x) {
     std::string text = "(";
@@ -46,8 +46,9 @@ points_view<Real, Dim> view_points(std::vector<vec<Real, Dim>> const& points) no
     return {points.empty() ? nullptr : points.front().data(), points.size(), std::size_t(Dim)};
 }
 
-/// \param id callable (number of a point) -> the number by which it is named
-/// \throws std::invalid_argument for two particles at the same place
+/// Checks that no two particles are at the same position.
+/// \param id callable: index of a point -> number of the particle in the message
+/// \throws std::invalid_argument for two particles at the same position
 template <class Real, int Dim, class Id>
 void require_apart(points_view<Real, Dim> const& points, Id const& id) {
     std::vector<std::size_t> order(points.size());

@@ -11,10 +11,10 @@
 #include <lacuna/core/state.hpp>
 
 /// \file
-/// Records of four numbers: how the hot loops see a particle's place, velocity and forces.
+/// Records of four numbers, in which hot loops read a particle's position, velocity and forces.
 ///
-/// A loop over pairs visits particles in no regular order. With one array per coordinate every number would be
-/// fetched alone; with records of four, one load brings four and a few shuffles turn W records into four packs.
+/// A loop over pairs visits particles in no regular order. With one array per coordinate, each number would need its
+/// own load. With records, one load brings four numbers, and a few shuffles transpose W records into four packs.
 
 namespace lacuna {
 
@@ -33,23 +33,23 @@ struct aligned_allocator {
 template <class T>
 using aligned_vector = std::vector<T, aligned_allocator<T>>;
 
-/// Changes the length of an array that is as long as what it holds at first, and longer and shorter by little then: it
-/// grows beyond its memory by an eighth more than asked for, where the array by itself would double.
+/// Resizes an array whose length changes little after the first call. If it exceeds its capacity, it reserves an eighth
+/// more than requested; the array itself would double its capacity.
 template <class Array>
 void resize_with_room(Array& array, std::size_t count) {
     if (count > array.capacity() && !array.empty()) array.reserve(count + count / 8);
     array.resize(count);
 }
 
-/// Four numbers side by side.
+/// Four consecutive numbers.
 template <class Real>
 using record = pack<Real, 4>;
 
-/// Column of entries, one per particle or pair, of one or more records each.
+/// An array with one entry per particle or pair; an entry has `Records` records.
 template <class Real, int Records = 1>
 class record_column {
 public:
-    /// Numbers of an entry.
+    /// Numbers in an entry.
     static constexpr std::size_t stride = 4 * Records;
     record_column() = default;
     explicit record_column(std::size_t count) { resize(count); }
@@ -60,7 +60,7 @@ public:
     }
     void resize(std::size_t count) { resize_with_room(data_, stride * count); }
     std::size_t size() const noexcept { return data_.size() / stride; }
-    /// The first record of entry `k`; record `r` of it.
+    /// The first record of entry `k`; of(k, r) is its record `r`.
     record<Real> operator[](std::size_t k) const noexcept { return of(k, 0); }
     record<Real> of(std::size_t k, int r) const noexcept {
         return record<Real>::load(data_.data() + stride * k + 4 * std::size_t(r));
@@ -82,7 +82,8 @@ private:
     aligned_vector<Real> data_;
 };
 
-/// How particles are kept: place and velocity, two records side by side. In double precision they fill one cache line.
+/// The array of particles: an entry has a record for the position and one for the velocity. In double precision it
+/// fills one cache line.
 template <class Real>
 using body_column = record_column<Real, 2>;
 
@@ -100,7 +101,7 @@ V join(H low, H high) noexcept {
 }
 } // namespace detail
 
-/// Turns W records that come from `at(0)` to `at(W - 1)`: result[l][k] is number l of at(k).
+/// Transposes W records, `at(0)` to `at(W - 1)`: result[l][k] is number l of at(k).
 template <class T, int W, class At>
 std::array<pack<T, W>, 4> transpose_load(At const& at) noexcept {
     using P = pack<T, W>;
@@ -164,8 +165,8 @@ std::array<pack<T, W>, 4> transpose_load(At const& at) noexcept {
     }
 }
 
-/// Turns W entries of two records: result[l][k] is number l of entry k.
-/// \param at callable `at.template operator()<N>(k, first)`: N numbers of entry k, from number `first` on
+/// Transposes W entries of two records: result[l][k] is number l of entry k.
+/// \param at callable `at.template operator()<N>(k, first)`: returns N numbers of entry k, starting at number `first`
 template <class T, int W, class At>
 std::array<pack<T, W>, 8> transpose_load2(At const& at) noexcept {
     using P = pack<T, W>;
@@ -184,7 +185,7 @@ std::array<pack<T, W>, 8> transpose_load2(At const& at) noexcept {
         return {P(low(abcd, efgh)),   P(low(abcd1, efgh1)),   P(low(abcd2, efgh2)),  P(low(abcd3, efgh3)),
                 P(high(abcd, efgh)), P(high(abcd1, efgh1)), P(high(abcd2, efgh2)), P(high(abcd3, efgh3))};
     } else if constexpr (sizeof(T) == 4 && W == 16) {
-        // Two entries to a register, the four records of one column of the result in its four parts of 128 bits.
+        // A register has two entries; its four parts of 128 bits are the four records of one column of the result.
         auto two = [&](int k) {
             return detail::join<full>(at.template operator()<8>(k, 0).v, at.template operator()<8>(k + 4, 0).v);
         };
@@ -215,13 +216,13 @@ std::array<pack<T, W>, 8> transpose_load2(At const& at) noexcept {
         return {first(front[0], back[0]),  first(front[1], back[1]),  first(front[2], back[2]),  first(front[3], back[3]),
                 second(front[0], back[0]), second(front[1], back[1]), second(front[2], back[2]), second(front[3], back[3])};
     } else {
-        auto place = transpose_load<T, W>([&](int k) { return at.template operator()<4>(k, 0); });
-        auto motion = transpose_load<T, W>([&](int k) { return at.template operator()<4>(k, 4); });
-        return {place[0], place[1], place[2], place[3], motion[0], motion[1], motion[2], motion[3]};
+        auto first = transpose_load<T, W>([&](int k) { return at.template operator()<4>(k, 0); });
+        auto second = transpose_load<T, W>([&](int k) { return at.template operator()<4>(k, 4); });
+        return {first[0], first[1], first[2], first[3], second[0], second[1], second[2], second[3]};
     }
 }
 
-/// Writes W records in a row: number l of record k is value[l][k].
+/// Writes W consecutive records: number l of record k is value[l][k].
 template <class T, int W>
 void transpose_store(T* to, std::array<pack<T, W>, 4> const& value) noexcept {
     if constexpr (sizeof(T) == 8 && W == 8) {

@@ -7,12 +7,13 @@
 #include <lacuna/core/standard.hpp>
 
 /// \file
-/// The functions in which laws are written, for plain numbers. core/pack.hpp and core/dual.hpp offer the same
-/// for a row of numbers and for a number with its derivatives; a formula that keeps to them works with all.
+/// The functions in which laws are written, for plain numbers. core/pack.hpp and core/dual.hpp define the same
+/// functions for a row of numbers and for a number with derivatives. A formula that uses only these functions works
+/// with all three.
 
 namespace lacuna {
 
-/// What a comparison of two T gives: bool for plain and dual numbers, a lane mask for packs.
+/// The result type of comparing two T: bool for plain and dual numbers, a lane mask for packs.
 template <class T>
 struct mask_of {
     using type = bool;
@@ -20,7 +21,7 @@ struct mask_of {
 template <class T>
 using mask_t = typename mask_of<T>::type;
 
-/// The number a scalar type is made of: double for double, pack<double, 8> and dual<double, 2>.
+/// The number type inside a scalar type: double for double, pack<double, 8> and dual<double, 2>.
 template <class T>
 struct value_of {
     using type = T;
@@ -53,7 +54,7 @@ template <std::floating_point T>
 constexpr T max(T a, T b) noexcept {
     return a < b ? b : a;
 }
-/// Whether any lane holds.
+/// True if the condition holds in any lane; all(): in all lanes.
 constexpr bool any(bool condition) noexcept { return condition; }
 constexpr bool all(bool condition) noexcept { return condition; }
 

@@ -2,7 +2,7 @@
 #pragma once
 
 /// \file
-/// Stops a compiler that is set to an older language than the one Lacuna is written in.
+/// Stops a compiler that is set to an older standard than C++20.
 
 #if defined(_MSVC_LANG)
 #define LACUNA_LANGUAGE _MSVC_LANG
@@ -11,7 +11,7 @@
 #endif
 #if LACUNA_LANGUAGE < 202002L
 #error Lacuna needs C++20 or later: compile with -std=c++20 (MSVC: /std:c++20)
-// A file that is not there ends the compilation; the errors that would follow say nothing new.
+// A missing file ends the compilation here, before errors that would only hide the message above.
 #include <lacuna_stops_here>
 #endif
 #undef LACUNA_LANGUAGE

@@ -7,13 +7,13 @@
 #include <lacuna/core/standard.hpp>
 
 /// \file
-/// How a class takes part in checkpoints: by a member `template <class Archive> void serialize(Archive& ar)` that
-/// names, in one call ar(a, b, ...), what a run changes, for writing and reading alike. Archives are cereal's
-/// (observe/state_archive.hpp); this header and the classes need nothing of it.
+/// How a class takes part in checkpoints. It has a member `template <class Archive> void serialize(Archive& ar)`. In
+/// one call ar(a, b, ...), this names all members that change during a simulation, both for writing and for reading.
+/// Archives are cereal's (observe/state_archive.hpp); this header and the classes do not include cereal.
 
 namespace lacuna {
 
-/// An array whose length the reader already has: a state with another length is refused.
+/// An array whose length the reader already knows: it refuses a state with another length.
 template <class Array>
 struct fixed_length {
     Array& array;
@@ -21,8 +21,9 @@ struct fixed_length {
 template <class Array>
 fixed_length(Array&) -> fixed_length<Array>;
 
-/// Refuses a state that contradicts itself or what it is read into. Without effect on what is written.
-/// \throws std::runtime_error
+/// Checks that a state agrees with itself and with the object that it is read into. It has no effect while writing.
+/// \param what the part that does not fit, for the message
+/// \throws std::runtime_error if `holds` is false
 inline void require_state(bool holds, char const* what) {
     if (!holds) throw std::runtime_error(std::string("its state does not fit: ") + what);
 }

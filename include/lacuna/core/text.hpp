@@ -16,14 +16,14 @@
 #include <lacuna/core/error.hpp>
 
 /// \file
-/// What readers of text files share: bytes, words, numbers, and the word that was meant. Numbers are read and written
-/// by std::from_chars and std::to_chars: a program's locale is of no account.
+/// Shared by readers of text files: bytes, words, numbers, and suggestions for misspelt words. Numbers are read by
+/// std::from_chars and written by std::to_chars, which ignore the program's locale.
 
 namespace lacuna {
 
-/// The bytes of a file.
-/// \param name of the file in the message
-/// \throws std::invalid_argument naming the file when it cannot be read
+/// Reads all bytes of a file.
+/// \param name the field in the message
+/// \throws std::invalid_argument naming the file if it cannot be read
 inline std::string read_file(std::string const& path, std::string const& name) {
     std::FILE* const file = std::fopen(path.c_str(), "rb");
     std::string bytes;
@@ -31,16 +31,16 @@ inline std::string read_file(std::string const& path, std::string const& name) {
     if (file != nullptr) {
         char buffer[65536];
         for (std::size_t count; (count = std::fread(buffer, 1, sizeof buffer, file)) > 0;) bytes.append(buffer, count);
-        failed = std::ferror(file) != 0; // of a folder, too
+        failed = std::ferror(file) != 0; // also for a folder
         std::fclose(file);
     }
     if (failed) refuse(name, "\"" + path + "\"", "a file that can be read");
     return bytes;
 }
 
-/// The text of a file without the mark of UTF-8 at its start.
+/// The text of a file without a UTF-8 byte order mark at its start.
 /// \param name of the file in messages
-/// \throws std::invalid_argument for UTF-16, and for a NUL byte, by its line
+/// \throws std::invalid_argument for UTF-16, and for a NUL byte, with its line
 inline std::string_view plain_text(std::string_view text, std::string const& name) {
     if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) refuse(name, "UTF-16", "a text in UTF-8");
     if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
@@ -51,7 +51,8 @@ inline std::string_view plain_text(std::string_view text, std::string const& nam
     refuse(name + ":" + std::to_string(lines + 1), "a NUL byte", "text");
 }
 
-/// Takes the next line, without its end (LF, CR LF or CR), from the front of a text. False: there is none left.
+/// Removes the first line from a text and returns it in `line`, without its end (LF, CR LF or CR). False if the text is
+/// empty.
 inline bool take_line(std::string_view& text, std::string_view& line) {
     if (text.empty()) return false;
     auto const end = std::min(text.find_first_of("\r\n"), text.size());
@@ -60,13 +61,13 @@ inline bool take_line(std::string_view& text, std::string_view& line) {
     return true;
 }
 
-/// Without the blanks at its ends.
+/// The text without blanks at its start and end.
 inline std::string_view trimmed(std::string_view text) {
     auto const first = text.find_first_not_of(" \t\r");
     return first == text.npos ? text.substr(0, 0) : text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
 }
 
-/// With the letters A to Z small.
+/// The text with the letters A to Z in lower case.
 inline std::string small_letters(std::string_view text) {
     std::string small(text);
     for (char& c : small)
@@ -74,7 +75,7 @@ inline std::string small_letters(std::string_view text) {
     return small;
 }
 
-/// The words of a line, which blanks part.
+/// The words of a line, separated by blanks.
 inline std::vector<std::string> words_of(std::string_view line) {
     std::vector<std::string> words;
     for (std::size_t from = 0; (from = line.find_first_not_of(" \t\r", from)) != std::string_view::npos;) {
@@ -85,7 +86,8 @@ inline std::vector<std::string> words_of(std::string_view line) {
     return words;
 }
 
-/// A word as messages show it: in quotes, bytes that are not to be seen by their number, the middle of a long one left out.
+/// A word as messages show it: in quotes, with control characters as "\xNN"; the middle of a word over 60 bytes is left
+/// out.
 inline std::string in_quotes(std::string_view word) {
     constexpr std::size_t most = 60;
     std::string text = "\"";
@@ -106,7 +108,7 @@ inline std::string in_quotes(std::string_view word) {
 
 namespace detail {
 
-/// The first byte or character of a word that is not of ASCII's visible ones, and its name where it is a usual one.
+/// Describes the first byte or character of a word that is not printable ASCII; empty if there is none.
 inline std::string odd_character(std::string_view word) {
     auto const odd = std::find_if(word.begin(), word.end(), [](char c) { return c < 0x20 || c > 0x7E; });
     if (odd == word.end()) return {};
@@ -135,7 +137,7 @@ inline std::string odd_character(std::string_view word) {
     }
 }
 
-/// What a word that is no number should be, by what is wrong with it.
+/// The rule for the refusal of a word that is not a number. It says what is wrong with the word if that is known.
 inline std::string number_rule(std::string_view word) {
     if (std::string const odd = odd_character(word); !odd.empty()) return "a number; it has " + odd;
     std::string const small = small_letters(word);
@@ -148,7 +150,7 @@ inline std::string number_rule(std::string_view word) {
     return "a number";
 }
 
-/// Whether a decimal number is so small, not so large, that it is out of range.
+/// True if a decimal number that is out of range is too small, false if it is too large.
 inline bool is_tiny(std::string_view word) {
     auto const mark = std::min(word.find_first_of("eE"), word.size());
     std::string_view const mantissa = word.substr(0, mark);
@@ -165,7 +167,8 @@ inline bool is_tiny(std::string_view word) {
 
 } // namespace detail
 
-/// The number that a word is, in decimal notation, "inf" and "nan" included; none where it is no number.
+/// Reads a word as a decimal number; "inf" and "nan" are numbers, too. A number out of range gives 0 or infinity.
+/// Returns nullopt for a word that is not a number.
 inline std::optional<double> number_of(std::string_view word) {
     if (word.size() > 1 && word[0] == '+' && word[1] != '-' && word[1] != '+') word.remove_prefix(1);
     double x = 0;
@@ -177,9 +180,9 @@ inline std::optional<double> number_of(std::string_view word) {
     return negative ? -size : size;
 }
 
-/// A number that takes the whole word.
+/// Reads a whole word as a finite number.
 /// \param field for the message
-/// \throws std::invalid_argument for what is no number, or not finite; where it can be told, with what is wrong with it
+/// \throws std::invalid_argument for a word that is not a number or not finite; it says what is wrong if that is known
 inline double read_number(std::string const& field, std::string_view word) {
     auto const x = number_of(word);
     if (!x) refuse(field, in_quotes(word), detail::number_rule(word));
@@ -187,7 +190,7 @@ inline double read_number(std::string const& field, std::string_view word) {
     return *x;
 }
 
-/// A whole number from `least` to `most`. \throws std::invalid_argument
+/// Reads a whole number from `least` to `most`. \throws std::invalid_argument for any other word
 inline long long read_whole(std::string const& field, std::string_view word, long long least, long long most) {
     double const x = read_number(field, word);
     std::string_view const digits = word.substr(word.starts_with('+'));
@@ -202,13 +205,13 @@ inline long long read_whole(std::string const& field, std::string_view word, lon
     return n;
 }
 
-/// A whole number from `least` to 2^31 - 1. \throws std::invalid_argument
+/// Reads a whole number from `least` to 2^31 - 1. \throws std::invalid_argument for any other word
 inline int read_integer(std::string const& field, std::string_view word, int least) {
     return int(read_whole(field, word, least, 2147483647));
 }
 
-/// printf of one number, as in the locale "C": text with one conversion %e, %f or %g, which may have the flag + and a
-/// precision. \throws std::invalid_argument for another format
+/// Formats one number like printf in the locale "C". The format has one conversion %e, %f or %g, which may have the
+/// flag + and a precision. \throws std::invalid_argument for another format
 inline std::string formatted(std::string_view format, double value) {
     std::string text;
     bool done = false;
@@ -238,13 +241,13 @@ inline std::string formatted(std::string_view format, double value) {
     return text;
 }
 
-/// The known word that is nearest to another, or an empty one when none is near.
+/// The known word that is nearest to `word` in Levenshtein's distance; empty if none is near.
 inline std::string nearest_word(std::string_view word, std::vector<std::string> const& known) {
     std::string best;
     std::size_t least = std::max<std::size_t>(2, word.size() / 3) + 1;
     if (word.size() > 60) return best;
     for (std::string const& candidate : known) {
-        // Levenshtein's distance, row by row.
+        // One row of the table of distances at a time.
         std::vector<std::size_t> row(candidate.size() + 1);
         std::iota(row.begin(), row.end(), std::size_t(0));
         for (std::size_t i = 1; i <= word.size(); ++i) {

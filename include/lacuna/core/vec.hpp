@@ -7,11 +7,11 @@
 
 namespace lacuna {
 
-/// A short column of N scalars of any kind (plain number, pack, dual): positions, velocities, forces.
+/// A vector of N scalars of any kind (plain number, pack, dual): a position, a velocity, a force.
 ///
-/// Not an Eigen matrix on purpose: laws instantiate it with packs and duals, in loops where every temporary
-/// counts and in programs whose compile time counts. Written without loops: an index that is a variable, if only
-/// until a loop is unrolled, makes compilers keep the components in memory.
+/// It is not an Eigen matrix on purpose: laws instantiate it with packs and duals, where every temporary and the
+/// compile time count. Its functions have no loops: a variable index, even in a loop that is unrolled later, makes
+/// compilers store the components in memory.
 template <class T, int N>
 struct vec {
     static_assert(N >= 1 && N <= 4);
@@ -99,7 +99,7 @@ T norm(vec<T, N> const& a) noexcept {
     else
         return sqrt(dot(a, a));
 }
-/// Out-of-plane component of the product of two vectors in the plane.
+/// Out-of-plane component of the cross product of two vectors in the plane.
 template <class T>
 constexpr T cross(vec<T, 2> const& a, vec<T, 2> const& b) noexcept {
     return a[0] * b[1] - a[1] * b[0];
@@ -108,7 +108,7 @@ template <class T>
 constexpr vec<T, 3> cross(vec<T, 3> const& a, vec<T, 3> const& b) noexcept {
     return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
-/// The vector turned by +90 degrees.
+/// The vector rotated by +90 degrees.
 template <class T>
 constexpr vec<T, 2> perpendicular(vec<T, 2> const& a) noexcept {
     return {-a[1], a[0]};
@@ -143,11 +143,11 @@ constexpr vec<To, N> convert(vec<From, N> const& a) noexcept {
     return r;
 }
 
-/// How many components a rotation (spin, torque) has: one in the plane, three in space.
+/// Number of components of a rotation, spin or torque: one in the plane, three in space.
 template <int Dim>
 inline constexpr int rotation_dim = Dim == 2 ? 1 : 3;
 
-/// How many components a shear force has: its signed value along the tangent in 2D, a vector in space in 3D.
+/// Number of components of a shear force: in 2D its signed value along the tangent, in 3D a vector in space.
 template <int Dim>
 inline constexpr int shear_dim = Dim == 2 ? 1 : 3;
 

@@ -4,7 +4,7 @@
 #include <lacuna/core/standard.hpp>
 
 /// \file
-/// Version of the library. CMake reads these three lines: they are the only place where it stands.
+/// Version of the library. CMake reads these three lines; the version is written nowhere else.
 
 #define LACUNA_VERSION_MAJOR 0
 #define LACUNA_VERSION_MINOR 1

@@ -23,7 +23,7 @@ namespace lacuna {
 
 namespace detail {
 #if __has_include(<unistd.h>)
-/// Whether an open file is still what its path names.
+/// True if `path` still names this open file.
 inline bool is_at(int file, std::string const& path) noexcept {
     struct stat opened {}, named {};
     return fstat(file, &opened) == 0 && stat(path.c_str(), &named) == 0 && opened.st_ino == named.st_ino &&
@@ -35,10 +35,10 @@ inline bool is_at(int file, std::string const& path) noexcept {
 }
 } // namespace detail
 
-/// A file that appears whole or not at all: it is written under a temporary name in the same directory (PATH.part, or
-/// PATH.NUMBER-NUMBER.part while another is writing the same path) and gets its own name in `commit()`. Without commit,
-/// destruction removes it and leaves an earlier file untouched. What a killed program left under the temporary name is
-/// written over by the next who writes that path.
+/// A file that appears complete or not at all. It is written under a temporary name in the same directory (PATH.part,
+/// or PATH.NUMBER-NUMBER.part while another writer is writing the same path); `commit()` renames it to PATH. Without
+/// commit, destruction removes it and leaves an earlier file untouched. The next writer of the same path overwrites a
+/// temporary file that a killed program has left.
 class whole_file {
 public:
     /// Opens the temporary file. \throws std::runtime_error naming the path and the system's reason
@@ -50,7 +50,7 @@ public:
     whole_file& operator=(whole_file const&) = delete;
     ~whole_file() {
 #if __has_include(<unistd.h>)
-        // Before it is closed: while the name is ours.
+        // Remove it before it is closed: after that another writer may own the name.
         if (!committed_ && file_ != nullptr) std::remove(temporary_.c_str());
         if (file_ != nullptr) std::fclose(file_);
 #else
@@ -64,12 +64,12 @@ public:
     void write(std::string_view bytes) {
         if (std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size()) fail("cannot write");
     }
-    /// Closes the file and gives it its name. \throws std::runtime_error when something was not written
+    /// Closes the file and renames it. \throws std::runtime_error if not all bytes could be written, or not renamed
     void commit() {
         if (std::ferror(file_) != 0 || std::fflush(file_) != 0) fail("cannot write");
 #if __has_include(<unistd.h>)
-        // The temporary name stays ours until it is given up: a second handle holds it while the first is closed, which tells
-        // what some file systems say only then.
+        // Some file systems report a failed write only when the file is closed. Until it is renamed, a second handle
+        // holds the lock and so the temporary name.
         int const held = dup(fileno(file_));
         bool const closed = std::fclose(std::exchange(file_, nullptr)) == 0;
         bool const renamed = closed && std::rename(temporary_.c_str(), path_.c_str()) == 0;
@@ -86,14 +86,14 @@ public:
         if (!closed) fail("cannot write");
         if (!renamed) fail("cannot rename to");
     }
-    /// As commit(), and the bytes and the name are on the disk when it returns: not lost when the power fails.
+    /// Like commit(), but returns only when the bytes and the name are on the disk: a power failure cannot lose them.
     void commit_to_disk() {
 #if __has_include(<unistd.h>)
         if (std::fflush(file_) != 0 || fsync(fileno(file_)) != 0) fail("cannot write");
         commit();
         auto const slash = path_.find_last_of('/');
         std::string const folder = slash == std::string::npos ? "." : path_.substr(0, slash + 1);
-        // Best effort: not every file system lets its folders be opened and synchronised.
+        // Best effort: not every file system can open and synchronise a folder.
         if (int const opened = ::open(folder.c_str(), O_RDONLY | O_CLOEXEC); opened >= 0) {
             (void)fsync(opened);
             close(opened);
@@ -105,7 +105,7 @@ public:
 
 private:
 #if __has_include(<unistd.h>)
-    /// The system's lock on the temporary file tells a writer at work from what a killed one left.
+    /// The system's lock on the temporary file shows whether its writer is still at work or was killed.
     void open() {
         static std::atomic<unsigned> count{0};
         for (;;) {

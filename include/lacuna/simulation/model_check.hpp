@@ -41,7 +41,8 @@ constexpr std::size_t first_odd_member() {
     }))::value;
 }
 template <class Aggregate, class T>
-inline constexpr auto odd_member = spelled_place{address_of_member<first_odd_member<Aggregate, T>()>(unmade<Aggregate>.value)};
+inline constexpr auto odd_member =
+    spelled_address{address_of_member<first_odd_member<Aggregate, T>()>(unmade<Aggregate>.value)};
 template <class Aggregate, class T>
 using odd_member_type = std::remove_cvref_t<decltype(*odd_member<Aggregate, T>.to)>;
 #if defined(__clang__)
