@@ -9,34 +9,34 @@
 
 namespace lacuna {
 
-/// What lies behind a throat on the boundary of the body: nothing that fluid passes, or a reservoir.
+/// Kind of a throat on the boundary: closed to fluid, or open to a reservoir.
 enum class boundary_kind : std::uint8_t { sealed, drained };
 
-/// Side of the body's bounding box that a boundary throat is nearest to: left and right along the first axis, bottom
+/// Side of the packing's bounding box that a boundary throat is nearest to: left and right along the first axis, bottom
 /// and top along the second, back and front along the third.
 enum class body_side : std::uint8_t { left, right, bottom, top, back, front };
 
-/// What a selection of boundaries answers for one throat. A reservoir takes and gives fluid; it does not press on
-/// the body's outside (that is a load).
+/// Boundary condition of one throat. A reservoir exchanges fluid with the pore; it exerts no pressure on the outside of
+/// the packing (that is a load).
 template <class Real>
 struct throat_boundary {
     boundary_kind kind = boundary_kind::sealed;
     Real pressure = Real(0); ///< of the reservoir behind a drained throat, Pa
-    /// Number of the flow_source: the reservoir behind a drained throat, or a rate that is fed into the pore at a
-    /// sealed one. Without, drained throats belong to a source of their own, "drained".
+    /// Number of the flow_source: the reservoir behind a drained throat, or the inflow into the pore at a sealed one.
+    /// If it is -1, a drained throat belongs to a source named "drained", which is added.
     std::int32_t source = -1;
 };
 
-/// What a selection of boundaries is told about one throat.
+/// A throat on the boundary: the argument of the boundary callable of make_pore_network().
 template <class Real, int Dim>
 struct boundary_throat {
     std::array<std::int32_t, std::size_t(Dim)> particles;
     vec<Real, Dim> middle;  ///< mean of the particles' centres, m
-    vec<Real, Dim> outward; ///< unit normal, out of the body
+    vec<Real, Dim> outward; ///< unit normal, out of the packing
     body_side side;
 };
 
-/// The default selection: fluid stays in the body.
+/// The default boundary: every throat is sealed.
 struct all_sealed {
     template <class Real, int Dim>
     throat_boundary<Real> operator()(boundary_throat<Real, Dim> const&) const {
@@ -46,8 +46,8 @@ struct all_sealed {
 
 namespace detail {
 
-/// The side of a bounding box that a throat is nearest to; at a corner, where several are equally near, the one that it
-/// faces.
+/// The side of a bounding box that a throat is nearest to. At a corner, where several are equally near, it is the side
+/// that the throat faces.
 template <class Real, int Dim>
 body_side nearest_side(vec<Real, Dim> const& middle, vec<Real, Dim> const& outward, vec<Real, Dim> const& low,
                        vec<Real, Dim> const& high) noexcept {

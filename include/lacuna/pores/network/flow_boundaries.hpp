@@ -16,17 +16,17 @@
 #include <lacuna/pores/network/pore_network.hpp>
 
 /// \file
-/// Where fluid enters and leaves: rules for the throats on the boundary, sources at points, pressures to begin with.
+/// Where fluid enters and leaves: rules for throats on the boundary, sources at points, initial pressures.
 /// \code
 /// auto net = make_pore_network(mesh, points, radii, flow_boundaries(reservoir("inlet", on_side{body_side::left}, 1e5),
 ///                                                                   injection("jet", on_side{body_side::top}, 1e-9)));
 /// hold_pressure_at(net, points, "gauge", {0, 0}, 0.0);
 /// \endcode
-/// network().sources then has "inlet", "jet" and "gauge"; a solver's set_source() changes what they prescribe.
+/// network().sources then has "inlet", "jet" and "gauge". A solver's set_source() changes the value of a source.
 
 namespace lacuna {
 
-/// Choice of boundary throats: those nearest to one side of the body's bounding box.
+/// Choice of boundary throats: those nearest to one side of the bounding box of the packing.
 struct on_side {
     body_side side;
     template <class Real, int Dim>
@@ -35,9 +35,9 @@ struct on_side {
     }
 };
 
-/// Choice of boundary throats: those between particles that all are chosen, the loaded ones for instance.
+/// Choice of boundary throats: those all of whose particles are chosen, for instance the loaded ones.
 struct between_chosen {
-    std::vector<std::uint8_t> chosen; ///< per particle, 1 or 0; particles beyond its end are not
+    std::vector<std::uint8_t> chosen; ///< 1 or 0 per particle; particles beyond its end are not chosen
     template <class Real, int Dim>
     bool operator()(boundary_throat<Real, Dim> const& throat) const noexcept {
         for (auto const i : throat.particles)
@@ -46,31 +46,34 @@ struct between_chosen {
     }
 };
 
-/// What one rule of flow_boundaries() says.
+/// One rule of flow_boundaries(): a source, and the choice of the throats at which it acts.
 template <class Choice>
 struct boundary_rule {
     flow_source source;
     Choice choice;
 };
 
-/// A reservoir of the given pressure [Pa] behind the throats chosen: they are drained.
+/// Rule: a reservoir of the given pressure [Pa] lies behind the chosen throats, which are drained.
 /// \param choice callable boundary_throat -> bool
+/// \throws std::invalid_argument for a pressure that is not finite.
 template <class Choice>
 boundary_rule<Choice> reservoir(std::string name, Choice choice, double pressure) {
     require_finite("flow source " + name, pressure);
     return {{std::move(name), flow_source_kind::pressure, pressure}, std::move(choice)};
 }
 
-/// A rate [m^3/s], negative to take fluid out, into the pores at the throats chosen, which stay sealed: shared out by
-/// the distance between the throats' particles (in space by the throats' areas).
+/// Rule: fluid enters the pores at the chosen throats at a given rate [m^3/s], negative for outflow. The throats stay
+/// sealed. Each pore gets a share proportional to the distance of the throat's particles (in space: to the throat's
+/// area).
 /// \param choice callable boundary_throat -> bool
+/// \throws std::invalid_argument for a rate that is not finite.
 template <class Choice>
 boundary_rule<Choice> injection(std::string name, Choice choice, double rate) {
     require_finite("flow source " + name, rate);
     return {{std::move(name), flow_source_kind::rate, rate}, std::move(choice)};
 }
 
-/// The selection of boundaries that flow_boundaries() makes.
+/// The boundary callable that flow_boundaries() returns, for make_pore_network().
 template <class... Choices>
 class boundary_rules {
 public:
@@ -101,15 +104,15 @@ private:
     std::tuple<boundary_rule<Choices>...> rules_;
 };
 
-/// Boundaries of a body by rules: a throat follows the first that chooses it, and is sealed where none does. Every rule
-/// must find a throat.
+/// Boundary conditions given by rules. A throat follows the first rule that chooses it, and is sealed if none does.
+/// make_pore_network() refuses a rule that no throat follows.
 template <class... Choices>
 boundary_rules<Choices...> flow_boundaries(boundary_rule<Choices>... rules) {
     return boundary_rules<Choices...>(std::move(rules)...);
 }
 
-/// The pore whose triangle or tetrahedron contains a point, else the one whose middle is nearest.
-/// \throws std::invalid_argument for a network without pores or particles, a point that is not finite.
+/// The pore whose triangle or tetrahedron contains a point, or else the one whose middle is nearest.
+/// \throws std::invalid_argument for a network without pores or particles, or a point that is not finite.
 template <class Real, int Dim>
 std::size_t find_pore(pore_network<Real, Dim> const& net, points_view<Real, Dim> points, vec<Real, Dim> const& at) {
     if (net.bare() || net.pores() == 0) refuse("network", "bare or empty", "one of pores between particles");
@@ -143,12 +146,13 @@ std::size_t add_source(pore_network<Real, Dim>& net, std::string name, flow_sour
 }
 } // namespace detail
 
-/// \name Sources at one pore, given by its number or by a point; before the network is given to its solver
+/// \name Sources at one pore, given by its number or by a point
+/// Call these before the network is passed to its solver.
 /// \return the number of the source
-/// \throws std::invalid_argument for a pore that is not there, a value not finite, and as find_pore().
+/// \throws std::invalid_argument for a pore that does not exist, a value that is not finite, and as find_pore().
 /// \{
 
-/// Feeds a pore, m^3/s; negative: takes fluid out.
+/// Injects fluid into a pore at a rate in m^3/s; a negative rate removes fluid.
 template <class Real, int Dim>
 std::size_t inject(pore_network<Real, Dim>& net, std::string name, std::size_t pore, double rate) {
     return detail::add_source(net, std::move(name), flow_source_kind::rate, rate, pore);
@@ -170,8 +174,8 @@ std::size_t hold_pressure_at(pore_network<Real, Dim>& net, points_view<Real, Dim
 }
 /// \}
 
-/// Pressures to begin with, on top of which a solver puts its `initial_pressure`.
-/// \param pressure callable point in the middle of the pore [m] -> Pa
+/// Sets the initial pressures, Pa. The solver adds its `initial_pressure`.
+/// \param pressure callable point in the middle of the pore [m] -> pressure [Pa]
 /// \throws std::invalid_argument for a pressure that is not finite.
 template <class Real, int Dim, class Pressure>
 void set_pressures(pore_network<Real, Dim>& net, points_view<Real, Dim> points, Pressure const& pressure) {
@@ -182,8 +186,8 @@ void set_pressures(pore_network<Real, Dim>& net, points_view<Real, Dim> points, 
     }
 }
 
-/// Number of the source of that name.
-/// \throws std::invalid_argument without one.
+/// Number of the source with a given name.
+/// \throws std::invalid_argument if there is none.
 template <class Real, int Dim>
 std::size_t find_source(pore_network<Real, Dim> const& net, std::string const& name) {
     for (std::size_t s = 0; s < net.sources.size(); ++s)

@@ -10,27 +10,27 @@
 
 namespace lacuna {
 
-/// What a flow_source prescribes: the pressure behind it, or the volume that it gives per time.
+/// Quantity that a flow_source prescribes: a pressure, or a volume per time.
 enum class flow_source_kind : std::uint8_t { pressure, rate };
 
-/// A named place where fluid enters or leaves a pore network: a reservoir of given pressure, or a source of given rate
-/// (a sink where it is negative). It acts through the drained throats that name it, and on the pores listed here.
-/// Made by the rules and functions of pores/network/flow_boundaries.hpp.
+/// A named source of a pore network: a reservoir of given pressure, or an inflow of given rate (an outflow if
+/// negative). It acts through the drained throats that refer to it, and on the pores listed here. The rules and
+/// functions of pores/network/flow_boundaries.hpp make sources.
 struct flow_source {
     std::string name{};
     flow_source_kind kind = flow_source_kind::pressure;
     double value = 0;                  ///< Pa, or m^3/s into the pores; flow solvers' set_source() changes it
-    std::vector<std::int32_t> pores{}; ///< held at the pressure, or fed
-    std::vector<double> shares{};      ///< of the rate, for each of `pores`; they add up to 1
-    double volume = 0;                 ///< that has come in, m^3; negative: has gone out
-    double rate = 0;                   ///< mean of the last step in which fluid flowed, m^3/s
+    std::vector<std::int32_t> pores{}; ///< pores held at the pressure, or fed at the rate
+    std::vector<double> shares{};      ///< share of the rate for each of `pores`; the shares sum to 1
+    double volume = 0;                 ///< net volume that has entered through the source, m^3
+    double rate = 0;                   ///< mean inflow over the last step in which fluid flowed, m^3/s
 };
 
 namespace detail {
 
-/// Gives the throats on the boundary their sources.
+/// Assigns sources to the throats on the boundary, and pores and shares to the sources.
 /// \return the source of each drained throat
-/// \throws std::invalid_argument for a source that is not there, is of the other kind, or acts nowhere.
+/// \throws std::invalid_argument for a source that does not exist, is of the wrong kind, or acts at no throat.
 template <class Record>
 std::vector<std::int32_t> connect_sources(std::vector<flow_source>& sources, std::vector<Record> const& records) {
     auto const named = std::int32_t(sources.size());

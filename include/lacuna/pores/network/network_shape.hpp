@@ -9,19 +9,20 @@
 
 namespace lacuna {
 
-/// Writes to, or reads from, an archive what steps leave as it is in a network: which pores and throats there are, between
-/// which particles, and where sources act.
+/// Writes or reads the shape of a network, which steps do not change: its pores and throats, the particles around them,
+/// and where sources act.
+/// \throws std::runtime_error if the archive holds another number of sources.
 template <class Archive, class Network>
 void archive_shape(Archive& ar, Network& net) {
     ar(net.corner, net.size, net.throat_particle, net.throat_pore, net.length, net.interior_throats,
        net.drained_throats, net.drained_source);
     std::uint64_t sources = net.sources.size();
     ar(sources);
-    require_state(sources == net.sources.size(), "its pores were made in another way");
+    require_state(sources == net.sources.size(), "its pores have other sources of fluid");
     for (auto& source : net.sources) ar(source.name, source.kind, source.pores, source.shares);
 }
 
-/// Whether two networks have the same shape, but for the sizes that their pores were built with.
+/// Whether two networks have the same shape; pore_network::size is not compared.
 template <class Real, int Dim>
 bool same_shape(pore_network<Real, Dim> const& a, pore_network<Real, Dim> const& b) {
     bool same = a.corner == b.corner && a.throat_particle == b.throat_particle && a.throat_pore == b.throat_pore &&

@@ -10,14 +10,14 @@
 
 namespace lacuna {
 
-/// Array whose memory goes on to a whole number of packs, and at least one entry beyond size(): a loop over packs has no
-/// rest to treat apart. What lies beyond size() (the padding) belongs to such loops and is seen by nothing else.
+/// Array padded to a whole number of packs, with at least one entry of padding. A loop over packs needs no separate
+/// loop for the remainder. Only such loops see the padding, which lies beyond size().
 template <class T>
 class padded_array {
 public:
-    /// Entries of the widest register: a multiple of any pack's width.
+    /// Entries of the widest register (64 bytes): a multiple of any pack's width.
     static constexpr std::size_t multiple = 64 / sizeof(T);
-    /// The number of whole packs' entries that is next above `count`.
+    /// Smallest multiple of `multiple` above `count`.
     static constexpr std::size_t padded(std::size_t count) noexcept { return (count / multiple + 1) * multiple; }
 
     padded_array() = default;
@@ -44,7 +44,7 @@ public:
     T const* begin() const noexcept { return data(); }
     T const* end() const noexcept { return data() + size_; }
 
-    /// The same size and entries; padding do not count.
+    /// Compares size and entries; padding is ignored.
     friend bool operator==(padded_array const& a, padded_array const& b) noexcept {
         return std::equal(a.begin(), a.end(), b.begin(), b.end());
     }

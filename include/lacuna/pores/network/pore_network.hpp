@@ -21,10 +21,10 @@
 
 namespace lacuna {
 
-/// Where a pore lies: within the body, or at its boundary; drained when at least one of its throats is.
+/// Position of a pore: in the interior, or at the boundary; drained if at least one of its throats is.
 enum class pore_place : std::uint8_t { interior, sealed, drained };
 
-/// A throat given by hand: between two pores, or from one pore to a reservoir (second = -1).
+/// A throat of a bare network: between two pores, or from one pore to a reservoir (second = -1).
 template <class Real>
 struct bare_throat {
     std::int32_t first, second;
@@ -34,23 +34,23 @@ struct bare_throat {
 };
 
 LACUNA_BEGIN_PACKS
-/// Pores and throats of a body, one array per quantity (structure of arrays).
+/// Pores and throats of a packing, one array per quantity (structure of arrays).
 ///
-/// A throat lies between two particles in the plane, three in space. Its pores are [0] to the left of the line from
-/// particle [0] to particle [1] (in space: the one from whose outside the particles turn counter-clockwise), and [1] on
-/// its other side, -1 where the body ends. Throats come in the order interior, drained, sealed. In a bare network the
-/// particles are -1.
+/// A throat lies between two particles in the plane, three in space. throat_pore[0] is the pore to the left of the line
+/// from its particle [0] to its particle [1]; in space the particles are counter-clockwise as seen from outside that
+/// pore. throat_pore[1] is the pore on the other side, or -1 on the boundary of the mesh. Throats are in the order
+/// interior, drained, sealed. In a bare network throat_particle is -1.
 template <class Real, int Dim>
 struct pore_network {
     std::array<padded_array<std::int32_t>, std::size_t(Dim) + 1> corner; ///< particles around a pore; empty when bare
-    /// What a pore's least volume is a share of, m^Dim: its simplex at build time, in space not less than the regular
-    /// tetrahedron on the smallest of its spheres; empty when bare.
+    /// Reference for the least volume of a pore, m^Dim: the size of its simplex at build time. In space it is at least
+    /// the regular tetrahedron whose edge is the smallest sphere's diameter. Empty when bare.
     padded_array<Real> size;
     padded_array<Real> volume;     ///< V_p, m^3
     padded_array<Real> old_volume; ///< V_p when the pressure was last advanced, m^3
     padded_array<Real> pressure;   ///< Pa
-    /// Part of the volume that is void of liquid, at the minimum pressure, m^3; empty where the fluid never tears, see
-    /// vapour_of().
+    /// Part of the volume without liquid in pores at the minimum pressure, m^3. Empty if the fluid has no minimum
+    /// pressure; see vapour_of().
     padded_array<Real> vapour;
     std::vector<pore_place> place;
 
@@ -60,29 +60,29 @@ struct pore_network {
     padded_array<Real> aperture;    ///< a, m
     padded_array<Real> conductance; ///< C = k a^3 / l, m^3/(s Pa)
     padded_array<Real> flow;        ///< q of the last step, from pore [1] (or the reservoir) to pore [0], m^3/s
-    std::vector<std::uint8_t> inactive; ///< 1 where the flow is skipped
+    std::vector<std::uint8_t> inactive; ///< 1 for throats whose flow is skipped
     std::size_t interior_throats = 0;
     std::size_t drained_throats = 0;
-    /// Of drained throats, the first of which is throat number interior_throats; see reservoir_pressure(),
-    /// throat_source().
+    /// Reservoir pressure [Pa] and source number of each drained throat. Entry 0 belongs to throat interior_throats;
+    /// see reservoir_pressure(), throat_source().
     std::vector<Real> drained_pressure;
     std::vector<std::int32_t> drained_source;
     std::vector<flow_source> sources;
 
-    pore_throats<Real> throats_of; ///< each pore
-    std::size_t particles = 0; ///< of the body, also those at no pore; 0 when bare
+    pore_throats<Real> throats_of; ///< the throats of each pore
+    std::size_t particles = 0;     ///< number of all particles, also of those at no pore; 0 when bare
 
     std::size_t pores() const noexcept { return volume.size(); }
     std::size_t throats() const noexcept { return length.size(); }
-    /// Throats that fluid can pass: interior and drained.
+    /// Number of throats that fluid can pass: interior and drained ones.
     std::size_t open_throats() const noexcept { return interior_throats + drained_throats; }
     bool drained(std::size_t throat) const noexcept { return throat >= interior_throats && throat < open_throats(); }
     bool bare() const noexcept { return corner[0].empty(); }
-    /// Pressure behind a drained throat, Pa; 0 of others.
+    /// Pressure of the reservoir behind a drained throat, Pa; 0 for other throats.
     Real reservoir_pressure(std::size_t throat) const noexcept {
         return drained(throat) ? drained_pressure[throat - interior_throats] : Real(0);
     }
-    /// Number in `sources` of what is behind a drained throat; -1 of others.
+    /// Index in `sources` of the reservoir behind a drained throat; -1 for other throats.
     std::int32_t throat_source(std::size_t throat) const noexcept {
         return drained(throat) ? drained_source[throat - interior_throats] : -1;
     }
@@ -90,7 +90,7 @@ struct pore_network {
     boundary_kind kind(std::size_t throat) const noexcept {
         return throat < open_throats() ? boundary_kind::drained : boundary_kind::sealed;
     }
-    /// What a run changes; its shape is that of the receiver.
+    /// State that a run changes. It is read into a network of the same shape.
     template <class Archive>
     void serialize(Archive& ar) {
         ar(volume, old_volume, pressure, vapour, aperture, conductance, flow, fixed_length{drained_pressure}, fixed_length{inactive});
@@ -108,10 +108,10 @@ struct throat_record {
     Real length, aperture, reservoir_pressure;
     int rank; ///< 0 interior, 1 drained, 2 sealed
     std::int32_t source = -1;
-    double width = 0; ///< of a throat on the boundary, m, in space its area, m^2
+    double width = 0; ///< of a throat on the boundary: distance of its particles, m; in space its area, m^2
 };
 
-/// Fills in the throats, by rank and then as they come, and the arrays that every network has.
+/// Fills in the throats, sorted by rank and then in the order of `records`, and the arrays that every network has.
 template <class Real, int Dim>
 void finish(pore_network<Real, Dim>& net, std::vector<throat_record<Real, Dim>> const& records, std::size_t particles) {
     for (auto const& r : records) {
@@ -134,9 +134,9 @@ void finish(pore_network<Real, Dim>& net, std::vector<throat_record<Real, Dim>> 
         for (std::size_t side = 0; side < 2; ++side) net.throat_pore[side][t] = r.pore[side];
         net.length[t] = r.length;
         net.aperture[t] = r.aperture;
-        auto& place = net.place[std::size_t(r.pore[0])];
-        if (r.rank == 1) place = pore_place::drained;
-        if (r.rank == 2 && place == pore_place::interior) place = pore_place::sealed;
+        auto& position = net.place[std::size_t(r.pore[0])];
+        if (r.rank == 1) position = pore_place::drained;
+        if (r.rank == 2 && position == pore_place::interior) position = pore_place::sealed;
         if (r.rank == 1) net.drained_pressure.push_back(r.reservoir_pressure);
     }
     net.drained_source = connect_sources(net.sources, records);
@@ -151,7 +151,7 @@ void finish(pore_network<Real, Dim>& net, std::vector<throat_record<Real, Dim>> 
 
 namespace detail {
 
-/// Names the corners of a simplex that has no size. \throws particle_refusal, always
+/// Refuses a simplex of zero or negative size, and names its corners. \throws particle_refusal, always
 template <std::size_t Corners, class Real, int Dim>
 [[noreturn]] void refuse_flat(std::array<std::int32_t, Corners> const& corners, points_view<Real, Dim> points,
                               double size) {
@@ -163,23 +163,24 @@ template <std::size_t Corners, class Real, int Dim>
         who.append(")");
     }
     throw particle_refusal("size of the pore between the particles " + who + " m", size,
-                           std::string("> 0: in their order the corners of a mesh turn counter-clockwise, and are not on a ") +
+                           std::string("> 0: corners of a mesh are in counter-clockwise order, and not on a ") +
                                (Dim == 2 ? "line" : "plane"),
                            {corners.begin(), corners.end()});
 }
 
 } // namespace detail
 
-/// The pores and throats of a body. In the plane each triangle is a pore, each edge a throat of length r_i + r_j; in
-/// space each tetrahedron is a pore, each facet a throat, as long as the mean of r_i + r_j over its three edges. Volumes
-/// and apertures are left at 0 for the flow solver to fill in.
+/// Makes the pores and throats of a packing. In the plane each triangle is a pore, and each edge a throat of length
+/// r_i + r_j. In space each tetrahedron is a pore, and each facet a throat; its length is the mean of r_i + r_j over
+/// the three edges. Volumes and apertures stay 0: the flow solver fills them in.
 ///
 /// \param mesh from triangulate_body()
-/// \param points centres of all particles, m; \param radii theirs, m, > 0 at every corner of the mesh
-/// \param boundary callable boundary_throat -> throat_boundary, asked once for every throat on the boundary; what its
-///        member sources() returns, if it has one, becomes the network's `sources` (see flow_boundaries())
-/// \throws std::invalid_argument for a corner that is no particle, a simplex without size, a radius or a pressure out of
-///         range, a source that acts on no throat.
+/// \param points centres of all particles, m
+/// \param radii one per particle, m, > 0 at every corner of the mesh
+/// \param boundary callable boundary_throat -> throat_boundary, called once for every throat on the boundary. If it has
+///        a member sources(), the network's `sources` are set to its result (see flow_boundaries()).
+/// \throws std::invalid_argument for a corner that is no particle, a simplex of no or negative size, a radius or a
+///         pressure out of range, or a source that acts on no throat.
 template <class Real, int Dim, class Boundary = all_sealed>
 pore_network<Real, Dim> make_pore_network(pore_mesh<Dim> const& mesh, points_view<Real, Dim> points, Real const* radii,
                                           Boundary const& boundary = {}) {
@@ -241,8 +242,10 @@ pore_network<Real, Dim> make_pore_network(pore_mesh<Dim> const& mesh, points_vie
     return net;
 }
 
-/// A network without particles: rigid pores of the given volumes, throats of constant aperture.
-/// \param volumes m^3, > 0; \param sources that throats to reservoirs name
+/// Makes a bare network, without particles: rigid pores of the given volumes, throats of constant aperture.
+/// \param volumes one per pore, m^3, > 0
+/// \param throats see bare_throat
+/// \param sources the reservoirs to which bare_throat::source refers
 /// \throws std::invalid_argument for a value out of range, or a throat's end that is no pore.
 template <class Real, int Dim = 2>
 pore_network<Real, Dim> make_bare_network(std::vector<Real> const& volumes,
@@ -263,9 +266,9 @@ pore_network<Real, Dim> make_bare_network(std::vector<Real> const& volumes,
         require_positive(name + ".length", double(one.length));
         require_positive(name + ".aperture", double(one.aperture));
         require_finite(name + ".reservoir_pressure", double(one.reservoir_pressure));
-        std::array<std::int32_t, std::size_t(Dim)> nobody;
-        nobody.fill(-1);
-        records.push_back({nobody, {one.first, one.second}, one.length, one.aperture, one.reservoir_pressure,
+        std::array<std::int32_t, std::size_t(Dim)> no_particles;
+        no_particles.fill(-1);
+        records.push_back({no_particles, {one.first, one.second}, one.length, one.aperture, one.reservoir_pressure,
                            one.second < 0 ? 1 : 0, one.source, 1.0});
     }
     net.sources = std::move(sources);
@@ -273,7 +276,7 @@ pore_network<Real, Dim> make_bare_network(std::vector<Real> const& volumes,
     return net;
 }
 
-/// Middle of a pore, the mean of its corners, m: where pictures put its pressure.
+/// Middle of a pore, m: the mean of its corners. Pictures draw its pressure there.
 template <class Real, int Dim>
 vec<Real, Dim> pore_middle(pore_network<Real, Dim> const& net, std::size_t pore, points_view<Real, Dim> points) {
     vec<Real, Dim> sum{};

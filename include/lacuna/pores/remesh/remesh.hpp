@@ -17,53 +17,56 @@
 
 namespace lacuna {
 
-/// When the pores of a body that deforms are triangulated anew.
+/// When a deforming packing gets a new mesh of pores.
 enum class remesh_rule : std::uint8_t {
-    never,      ///< the mesh of the beginning: right for small strains
-    when_needed ///< when mesh_watch finds that it does not fit any more
+    never,      ///< keep the initial mesh: right for small strains
+    when_needed ///< when mesh_watch finds that the mesh no longer fits the particles
 };
 
 /// Parameters of remeshing.
 struct remesh_parameters {
     remesh_rule rule = remesh_rule::never;
-    int interval = 100;         ///< steps between two looks at the mesh; >= 1
-    bool on_broken_bond = false; ///< also when a bond has failed since the last look
+    int interval = 100;          ///< steps between two checks of the mesh; >= 1
+    bool on_broken_bond = false; ///< also remesh if a bond has failed since the last check
 
     /// \throws std::invalid_argument naming field, value and rule.
     void validate(std::string const& name) const { require_in(name + ".interval", interval, 1, 1000000000); }
 };
 
-/// Finds out whether a mesh still fits its particles:
-///   - a triangle has turned over, or has no area left;
-///   - the discs of a triangle have come to fill it (its pore is at its least volume);
-///   - two discs of the mesh touch that share no edge.
-/// The second and third may be there in a fresh mesh too (three discs may fill their triangle, a third disc may lie
-/// over a contact, the boundary of the body is not convex): what a fresh mesh has does not count until it has gone.
+/// Finds out whether a mesh still fits its particles. It does not if
+///   - a triangle is inverted, or has no area;
+///   - the discs of a triangle now fill it (its pore is at its least volume);
+///   - two discs of the mesh touch but share no edge.
+/// The second and third fault may occur in a new mesh too: three discs may fill their triangle, a third disc may cover
+/// a contact, or the boundary may be concave there. A fault of a new mesh counts only after it has vanished and
+/// returned.
 template <class Real>
 class mesh_watch {
 public:
-    /// Takes the present state of a fresh mesh as fitting.
+    /// Records the faults of a new mesh, which do not count.
+    /// \param points centres, m; \param radii m; \param thickness m
+    /// \param minimum_share least pore volume as a share of the pore's triangle, see flow_parameters
     /// \param for_each_pair callable: for_each_pair(visit) calls visit(i, j) for all pairs that may touch
     template <class ForEachPair>
     void accept(pore_network<Real, 2> const& net, points_view<Real, 2> points, Real const* radii, Real thickness,
                 Real minimum_share, ForEachPair const& for_each_pair) {
-        learn(net, points.size());
-        look(net, points, radii, thickness, minimum_share, for_each_pair);
+        reset(net, points.size());
+        check(net, points, radii, thickness, minimum_share, for_each_pair);
     }
 
-    /// Whether the mesh needs to be made anew; parameters as in accept().
+    /// Whether a new mesh is needed; parameters as in accept().
     template <class ForEachPair>
     bool unfit(pore_network<Real, 2> const& net, points_view<Real, 2> points, Real const* radii, Real thickness,
                Real minimum_share, ForEachPair const& for_each_pair) {
-        return look(net, points, radii, thickness, minimum_share, for_each_pair);
+        return check(net, points, radii, thickness, minimum_share, for_each_pair);
     }
 
-    /// Writes, or reads for a mesh of `particles` particles, what a run has found so far.
+    /// Writes or reads the faults found so far, for a mesh of `particles` particles.
     template <class Archive>
     void archive(Archive& ar, pore_network<Real, 2> const& net, std::size_t particles) {
-        if constexpr (Archive::is_loading::value) learn(net, particles);
+        if constexpr (Archive::is_loading::value) reset(net, particles);
         ar(fixed_length{filled_}, touching_);
-        require_state(std::is_sorted(touching_.begin(), touching_.end()), "what is known of its mesh");
+        require_state(std::is_sorted(touching_.begin(), touching_.end()), "the contacts of its mesh are not sorted");
     }
 
 private:
@@ -71,8 +74,8 @@ private:
 
     static pair sorted(std::int32_t i, std::int32_t j) noexcept { return {std::min(i, j), std::max(i, j)}; }
 
-    /// Edges and corners of a mesh, of which nothing is known yet.
-    void learn(pore_network<Real, 2> const& net, std::size_t particles) {
+    /// Takes over the edges and corners of a mesh, and clears the faults.
+    void reset(pore_network<Real, 2> const& net, std::size_t particles) {
         filled_.assign(net.pores(), 0);
         touching_.clear();
         corner_.assign(particles, 0);
@@ -91,10 +94,10 @@ private:
         return std::find(at(p[0]), at(p[0] + 1), p[1]) != at(p[0] + 1);
     }
 
-    /// Looks at the mesh, and remembers its faults. \return whether there is one that was not there the last time, or a
-    /// triangle has turned over
+    /// Checks the mesh, and stores its faults. \return whether there is a fault that the last check did not find, or an
+    /// inverted triangle
     template <class ForEachPair>
-    bool look(pore_network<Real, 2> const& net, points_view<Real, 2> points, Real const* radii, Real thickness,
+    bool check(pore_network<Real, 2> const& net, points_view<Real, 2> points, Real const* radii, Real thickness,
               Real minimum_share, ForEachPair const& for_each_pair) {
         bool found = false;
         for (std::size_t p = 0; p < net.pores(); ++p) {
@@ -117,11 +120,11 @@ private:
         return found;
     }
 
-    // Of the mesh: the particles to which an edge leads from each, from the lower-numbered one; and which are in it.
+    // Edges of the mesh, by their lower-numbered particle: its range in edge_, which holds the other particles.
     std::vector<std::int32_t> first_edge_, edge_;
-    std::vector<std::uint8_t> corner_;
-    std::vector<std::uint8_t> filled_; // of pores, at the last look: the particles fill it
-    std::vector<pair> touching_;       // at the last look, without sharing an edge
+    std::vector<std::uint8_t> corner_; // per particle: whether it is in the mesh
+    std::vector<std::uint8_t> filled_; // per pore: whether its particles filled it at the last check
+    std::vector<pair> touching_;       // pairs that touched at the last check without sharing an edge
 };
 
 } // namespace lacuna

@@ -16,42 +16,42 @@
 
 namespace lacuna {
 
-/// What transfer_fluid() did. The fluid content of a pore is V p / K_f - W, W its vapour: what the pressure holds beyond a
-/// pore filled at zero pressure, as eq. 15 counts it.
+/// Report of transfer_fluid(). The fluid content of a pore is V p / K_f - W, where W is its vapour: the volume in
+/// excess of a pore filled at zero pressure, as in the paper's eq. 15.
 struct transferred_fluid {
-    std::size_t kept = 0;    ///< pores of both meshes
-    std::size_t changed = 0; ///< pores of the new mesh alone
-    std::size_t regions = 0; ///< of changed pores
+    std::size_t kept = 0;    ///< number of pores in both meshes
+    std::size_t changed = 0; ///< number of pores in the new mesh only
+    std::size_t regions = 0; ///< number of regions of changed pores
     double content = 0;      ///< sum of |V p / K_f| + W of the old pores, m^3: the scale of `residual`
-    double residual = 0;     ///< content that rounding made or took, m^3
-    double lost = 0;         ///< content of pores that went away with all their neighbours, m^3
-    /// Volume of the new pores less that of the old ones, m^3: rounding, but where the boundary has moved or pores were
-    /// at their least volume, which is more than they have.
+    double residual = 0;     ///< content added (or removed, if negative) by rounding, m^3
+    double lost = 0;         ///< content of pores that were removed with all their neighbours, m^3
+    /// Volume of the new pores less that of the old ones, m^3. It is due to rounding, unless the boundary has moved or
+    /// pores were at their least volume, which exceeds their void.
     double volume = 0;
 };
 
 namespace detail {
 
-/// Area that two triangles have in common, both counter-clockwise: one is clipped at the sides of the other
+/// Area that two counter-clockwise triangles have in common, m^2. One is clipped at the sides of the other
 /// (I. E. Sutherland, G. W. Hodgman, Reentrant polygon clipping, Comm. ACM 17 (1974) 32).
 template <class Real>
 Real common_area(std::array<vec<Real, 2>, 3> const& one, std::array<vec<Real, 2>, 3> const& other) noexcept {
     std::array<vec<Real, 2>, 9> polygon, next;
-    // Seen from a corner, so that little is lost to rounding far from the origin.
+    // Relative to a corner: far from the origin, coordinates would lose digits to rounding.
     auto const origin = other[0];
     std::size_t count = 3;
     for (std::size_t c = 0; c < 3; ++c) polygon[c] = one[c] - origin;
     for (std::size_t side = 0; side < 3; ++side) {
         auto const from = other[side] - origin, along = other[(side + 1) % 3] - other[side];
-        std::size_t kept = 0;
+        std::size_t clipped = 0;
         for (std::size_t k = 0; k < count; ++k) {
             auto const &p = polygon[k], &q = polygon[(k + 1) % count];
             Real const at_p = cross(along, p - from), at_q = cross(along, q - from);
-            if (at_p >= Real(0)) next[kept++] = p;
-            if ((at_p >= Real(0)) != (at_q >= Real(0))) next[kept++] = p + (q - p) * (at_p / (at_p - at_q));
+            if (at_p >= Real(0)) next[clipped++] = p;
+            if ((at_p >= Real(0)) != (at_q >= Real(0))) next[clipped++] = p + (q - p) * (at_p / (at_p - at_q));
         }
         polygon = next;
-        count = kept;
+        count = clipped;
         if (count < 3) return Real(0);
     }
     Real twice(0);
@@ -59,13 +59,13 @@ Real common_area(std::array<vec<Real, 2>, 3> const& one, std::array<vec<Real, 2>
     return max(twice / Real(2), Real(0));
 }
 
-/// By which the pores of a network are in ascending order.
+/// Particles at the corners of a pore. The pores of a network are sorted by them.
 template <class Real>
 std::array<std::int32_t, 3> corners(pore_network<Real, 2> const& net, std::size_t pore) noexcept {
     return {net.corner[0][pore], net.corner[1][pore], net.corner[2][pore]};
 }
 
-/// A changed pore as a triangle, turned back if it has turned over, with its extent in x.
+/// A changed pore as a counter-clockwise triangle (inverted ones are flipped), with its extent in x, m, and area, m^2.
 template <class Real>
 struct changed_pore {
     std::size_t pore;
@@ -74,7 +74,7 @@ struct changed_pore {
 };
 
 template <class Real>
-changed_pore<Real> look_at(pore_network<Real, 2> const& net, std::size_t pore, points_view<Real, 2> points) {
+changed_pore<Real> changed_pore_at(pore_network<Real, 2> const& net, std::size_t pore, points_view<Real, 2> points) {
     auto const at = [&](std::size_t c) { return points[std::size_t(net.corner[c][pore])]; };
     changed_pore<Real> p{pore, {at(0), at(1), at(2)}, 0, 0, triangle_area(at(0), at(1), at(2))};
     if (p.area < Real(0)) {
@@ -96,27 +96,28 @@ inline void unite(std::vector<std::size_t>& up, std::size_t a, std::size_t b) no
     up[std::max(a, b)] = std::min(a, b);
 }
 
-/// Flows of throats between the same particles, and what sources of the same name prescribe and have brought.
+/// Copies the flows of throats between the same particles, and the state of sources of the same name: value, volume and
+/// rate.
 template <class Real>
-void carry_throats(pore_network<Real, 2> const& from, pore_network<Real, 2>& to) {
-    struct place {
+void transfer_throats(pore_network<Real, 2> const& from, pore_network<Real, 2>& to) {
+    struct throat_key {
         std::int32_t low, high;
         std::size_t throat;
-        bool operator<(place const& o) const noexcept { return low != o.low ? low < o.low : high < o.high; }
+        bool operator<(throat_key const& o) const noexcept { return low != o.low ? low < o.low : high < o.high; }
     };
-    auto const place_of = [](pore_network<Real, 2> const& net, std::size_t t) {
+    auto const key_of = [](pore_network<Real, 2> const& net, std::size_t t) {
         auto const i = net.throat_particle[0][t], j = net.throat_particle[1][t];
-        return place{std::min(i, j), std::max(i, j), t};
+        return throat_key{std::min(i, j), std::max(i, j), t};
     };
-    std::vector<place> known;
-    for (std::size_t t = 0; t < from.open_throats(); ++t) known.push_back(place_of(from, t));
+    std::vector<throat_key> known;
+    for (std::size_t t = 0; t < from.open_throats(); ++t) known.push_back(key_of(from, t));
     std::sort(known.begin(), known.end());
     for (std::size_t t = 0; t < to.open_throats(); ++t) {
-        auto const wanted = place_of(to, t);
+        auto const wanted = key_of(to, t);
         auto const found = std::lower_bound(known.begin(), known.end(), wanted);
         if (found == known.end() || wanted < *found) continue;
-        bool const same_way = from.throat_particle[0][found->throat] == to.throat_particle[0][t];
-        to.flow[t] = same_way ? from.flow[found->throat] : -from.flow[found->throat];
+        bool const same_direction = from.throat_particle[0][found->throat] == to.throat_particle[0][t];
+        to.flow[t] = same_direction ? from.flow[found->throat] : -from.flow[found->throat];
     }
     for (std::size_t s = 0; s < to.sources.size(); ++s)
         for (auto const& old : from.sources) {
@@ -134,7 +135,7 @@ void carry_throats(pore_network<Real, 2> const& from, pore_network<Real, 2>& to)
 
 } // namespace detail
 
-/// Gives pores that are in both networks the size that they were built with: their least volume goes by it.
+/// Copies pore_network::size, the reference for the least volume, for pores that are in both networks.
 template <class Real>
 void keep_sizes(pore_network<Real, 2> const& from, pore_network<Real, 2>& to) {
     std::size_t a = 0;
@@ -145,25 +146,26 @@ void keep_sizes(pore_network<Real, 2> const& from, pore_network<Real, 2>& to) {
     }
 }
 
-/// Carries the fluid of a network over to that of a new mesh of the same particles at the same places.
+/// Transfers the fluid of a network to the network of a new mesh of the same particles in the same positions.
 ///
-/// A pore of both meshes keeps its volumes, its pressure and its vapour, to the bit. The other pores fall into regions:
-/// old and new ones that overlap. In a region a new pore takes the mean of the old pressures, weighted with the areas
-/// that it covers; then all of them are shifted by the same pressure, such that the region's content is what it was. So
-/// a uniform pressure stays uniform where the volume of the region is the same. At the boundary of the body a region
-/// may gain or lose area: its content stays. A region without new pores gives its content to the pores next to it; a
-/// new pore where none was starts at zero pressure.
+/// A pore that is in both meshes keeps its volumes, pressure and vapour, to the bit. The other pores form regions of
+/// old and new pores that overlap. In a region each new pore first gets the mean of the old pressures, weighted with
+/// the areas that it covers. Then one pressure is added to all of them, such that the region keeps its fluid content.
+/// So a uniform pressure stays uniform if the volume of the region is unchanged. On the boundary a region may gain or
+/// lose area but keeps its content. A region without new pores gives its content to the neighbouring pores. A new pore
+/// that overlaps no old pore starts at zero pressure.
 ///
-/// \param to network of the new mesh, with volumes, apertures and conductances; gets the fluid, and the flows of the
-///        throats that it has in common with `from`, and what sources of the same name prescribe and have brought
-/// \param bulk_modulus K_f, Pa; \param minimum_pressure Pa
+/// \param from network of the old mesh
+/// \param to network of the new mesh, with volumes, apertures and conductances. It receives the fluid, the flows of
+///        throats that are also in `from`, and the value, volume and rate of sources of the same name.
+/// \param points centres, m; \param bulk_modulus K_f, Pa; \param minimum_pressure Pa
 template <class Real>
 transferred_fluid transfer_fluid(pore_network<Real, 2> const& from, pore_network<Real, 2>& to, points_view<Real, 2> points,
                           double bulk_modulus, double minimum_pressure) {
     using namespace detail;
     constexpr auto none = std::size_t(-1);
     transferred_fluid report;
-    // Pores are in the order of their corners. Nodes of the regions: all old pores, then all new ones.
+    // Both networks sort their pores by corners. Nodes of the union-find: all old pores, then all new ones.
     std::vector<std::size_t> old_of_new(to.pores(), none), new_of_old(from.pores(), none);
     std::vector<changed_pore<Real>> removed, added;
     std::size_t a = 0, b = 0;
@@ -171,9 +173,9 @@ transferred_fluid transfer_fluid(pore_network<Real, 2> const& from, pore_network
         bool const old_first = b == to.pores() || (a < from.pores() && corners(from, a) < corners(to, b));
         bool const new_first = a == from.pores() || (b < to.pores() && corners(to, b) < corners(from, a));
         if (old_first) {
-            removed.push_back(look_at(from, a++, points));
+            removed.push_back(changed_pore_at(from, a++, points));
         } else if (new_first) {
-            added.push_back(look_at(to, b++, points));
+            added.push_back(changed_pore_at(to, b++, points));
         } else {
             to.volume[b] = from.volume[a];
             to.old_volume[b] = from.old_volume[a];
@@ -209,7 +211,7 @@ transferred_fluid transfer_fluid(pore_network<Real, 2> const& from, pore_network
         }
     }
 
-    // What is left without a new pore goes to the neighbours, to theirs if they are removed as well.
+    // A region without new pores joins its neighbours, and their neighbours if those are removed too.
     std::vector<std::uint8_t> has_new(up.size());
     auto const mark = [&] {
         std::fill(has_new.begin(), has_new.end(), std::uint8_t(0));
@@ -256,7 +258,7 @@ transferred_fluid transfer_fluid(pore_network<Real, 2> const& from, pore_network
         touched.push_back(q);
         double const volume = double(to.old_volume[q]);
         double pressure = area[q] > 0 ? sum[q] / area[q] : 0;
-        if (old_of_new[q] != none) { // a neighbour of a region that has no new pores
+        if (old_of_new[q] != none) { // neighbour of a region without new pores
             pressure = double(to.pressure[q]);
             double const vapour = bulk_modulus * double(to.vapour_of(q));
             r.content += volume * pressure - vapour;
@@ -286,7 +288,7 @@ transferred_fluid transfer_fluid(pore_network<Real, 2> const& from, pore_network
     for (std::size_t p = 0; p < from.pores(); ++p)
         report.content += std::fabs(double(from.old_volume[p]) * double(from.pressure[p])) / bulk_modulus +
                           double(from.vapour_of(p));
-    carry_throats(from, to);
+    transfer_throats(from, to);
     return report;
 }
 
