@@ -14,12 +14,12 @@
 #include <lacuna/particles/packing.hpp>
 
 /// \file
-/// Compression tests: a specimen between walls, of which two come together, while those on its sides, if there are any,
-/// hold a stress. Uniaxial: two platens. Biaxial in the plane, triaxial in space: a box.
+/// Compression tests: two walls compress a specimen; walls on its sides, if there are any, hold a constant stress.
+/// Uniaxial: two platens. Biaxial in the plane, triaxial in space: a box.
 
 namespace lacuna {
 
-/// Lowest and highest point of a packing along an axis, radii included, m.
+/// Lowest and highest coordinate of a packing along an axis, radii included, m.
 /// \throws std::invalid_argument for a packing without particles
 template <class Real, int Dim>
 std::array<double, 2> extent(packing<Real, Dim> const& p, int axis) {
@@ -32,8 +32,9 @@ std::array<double, 2> extent(packing<Real, Dim> const& p, int axis) {
     return e;
 }
 
-/// Two walls that just touch a packing from below and above along an axis, in this order.
+/// Returns two walls that just touch a packing along an axis: first the lower, then the upper wall.
 /// \tparam Wall the simulation's type of wall
+/// \throws std::invalid_argument for an axis that does not exist, and for a packing without particles
 template <class Wall, class Real, int Dim, class Material>
 std::vector<Wall> platens(packing<Real, Dim> const& p, int axis, Material const& material) {
     require_in("axis", axis, 0, Dim - 1);
@@ -49,7 +50,8 @@ std::vector<Wall> platens(packing<Real, Dim> const& p, int axis, Material const&
     return walls;
 }
 
-/// Walls that just touch a packing from all sides: 2 axis and 2 axis + 1 are those across an axis.
+/// Returns walls that just touch a packing on all sides. Walls 2 axis and 2 axis + 1 are perpendicular to an axis.
+/// \throws std::invalid_argument for a packing without particles
 template <class Wall, class Real, int Dim, class Material>
 std::vector<Wall> box_walls(packing<Real, Dim> const& p, Material const& material) {
     std::vector<Wall> walls;
@@ -58,13 +60,14 @@ std::vector<Wall> box_walls(packing<Real, Dim> const& p, Material const& materia
     return walls;
 }
 
+/// Input of a compression test.
 struct compression_parameters {
-    int axis = 1;            ///< along which the specimen is shortened
-    double strain_rate = 0;  ///< of its first length, 1/s, > 0; half of it by each platen
-    double ramp_time = 0;    ///< in which the platens get to their speed, s
-    double confinement = 0;  ///< stress on the sides, Pa, >= 0; read with a box
-    double servo_speed = 0;  ///< at most, of the walls on the sides, m/s, > 0; read with a box
-    double relaxation = 0.5; ///< of the servos: see wall_servo
+    int axis = 1;            ///< axis of compression
+    double strain_rate = 0;  ///< relative to the initial length, 1/s, > 0; each platen does half of it
+    double ramp_time = 0;    ///< time in which the platens reach their speed, s
+    double confinement = 0;  ///< stress on the sides, Pa, >= 0; used with a box
+    double servo_speed = 0;  ///< largest speed of the walls on the sides, m/s, > 0; used with a box
+    double relaxation = 0.5; ///< of the servos; see wall_servo
 
     /// \throws std::invalid_argument naming field, value and rule.
     void validate(std::string const& name, int dim, bool box) const {
@@ -77,20 +80,21 @@ struct compression_parameters {
     }
 };
 
-/// Strains and stresses of a specimen by its walls; compression is positive.
+/// Strains and stresses of a specimen, measured at its walls; compression is positive.
 template <int Dim>
 struct compression_state {
-    vec<double, Dim> strain{}; ///< shortening over the first length; 0 across an axis without walls
+    vec<double, Dim> strain{}; ///< shortening over the initial length, 1; 0 along an axis without walls
     vec<double, Dim> stress{}; ///< mean of the forces on two opposite walls over the specimen's section, Pa
 };
 
-/// Drives a compression test and reads it. Walls 0 and 1 of the simulation are those of platens(), or all are those of
-/// box_walls().
+/// Drives a compression test and measures strain and stress. The simulation's walls 0 and 1 must be those of platens(),
+/// or all its walls those of box_walls().
 template <int Dim>
 class compression_test {
 public:
-    /// \param packing the specimen: its outline is the first length, and the section of a uniaxial test
-    /// \param thickness of the specimen, m; in the plane
+    /// \param packing the specimen: its extent is the initial length, and the section of a uniaxial test
+    /// \param box true: walls on all sides; false: two platens
+    /// \param thickness of the specimen, m; used in the plane
     /// \throws std::invalid_argument naming field, value and rule.
     template <class Real>
     compression_test(compression_parameters const& p, packing<Real, Dim> const& packing, bool box, double thickness = 1)
@@ -103,12 +107,12 @@ public:
         }
     }
 
-    /// A box: brings all walls to the stress of confinement. Strains are counted from here on once load() is called.
+    /// With a box: all walls hold the confinement. Strains are measured from the state in which load() is called.
     template <class Simulation>
     void confine(Simulation& sim) const {
         for (int axis = 0; box_ && axis < Dim; ++axis) hold(sim, axis);
     }
-    /// Sets the platens going; the walls on the sides hold the confinement.
+    /// Starts the platens; the walls on the sides hold the confinement.
     template <class Simulation>
     void load(Simulation& sim) {
         if (box_)
@@ -123,7 +127,7 @@ public:
         sim.move_wall(w[1], -v, p_.ramp_time);
     }
 
-    /// Of the last evaluation of forces.
+    /// Strains and stresses at the last evaluation of forces.
     template <class Simulation>
     compression_state<Dim> state(Simulation const& sim) const {
         compression_state<Dim> s;
@@ -138,7 +142,7 @@ public:
         }
         return s;
     }
-    /// First length along an axis, m.
+    /// Initial length along an axis, m.
     double length(int axis) const noexcept { return length_[axis]; }
 
 private:

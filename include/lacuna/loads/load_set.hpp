@@ -15,8 +15,8 @@
 
 namespace lacuna {
 
-/// Forces from outside: weight, which is always there, and on single particles a force and a torque that are reached
-/// linearly within a ramp time from those that acted before, at first none, or are there at once.
+/// External forces: the weight of all particles, and a force and a torque on single particles. These change linearly
+/// within a ramp time from the load that acted before (at first none), or at once.
 template <class Real, int Dim>
 class load_set {
 public:
@@ -25,8 +25,9 @@ public:
 
     load_set() = default;
     /// \param gravity m/s^2
-    /// \param weight_share what is left of a particle's weight, 1 without a fluid that it displaces: by material, or
-    ///        where there are particles with densities of their own by internal index
+    /// \param weight_share share of a particle's weight that remains, 1 without a fluid that it displaces. One entry
+    ///        per material, or per internal index if `by_particle`.
+    /// \param by_particle true if particles have their own densities
     load_set(point const& gravity, std::vector<double> weight_share, bool by_particle = false)
         : gravity_(gravity), weight_share_(std::move(weight_share)), by_particle_(by_particle) {}
 
@@ -34,7 +35,8 @@ public:
     /// \param k internal index
     /// \param force N
     /// \param torque N m
-    /// \param ramp_time within which it changes linearly from the load that acts `now` to this one, s; 0: at once
+    /// \param ramp_time duration of the linear change from the current load to this one, s; 0: at once
+    /// \param now current time, s
     /// \throws std::invalid_argument naming the particle
     void set(particle_store<Real, Dim>& store, std::size_t k, point const& force, rotation const& torque,
              double ramp_time, double now) {
@@ -50,20 +52,20 @@ public:
         put(store, k, now);
     }
 
-    /// Brings the loads that are still rising to their value at `time`.
+    /// Sets the loads that still change to their value at `time`, s.
     void advance(particle_store<Real, Dim>& store, double time) {
         if (rising_.empty()) return;
         for (std::size_t const k : rising_) put(store, k, time);
         std::erase_if(rising_, [&](std::size_t k) { return time >= load_.at(k).start + load_.at(k).ramp_time; });
     }
 
-    /// Writes the weight of all particles.
+    /// Writes the weight of all particles into the store.
     void apply_weight(particle_store<Real, Dim>& store) {
-        // Particles without any load take no memory for it, and no time in the step.
+        // Without weight, particles that have no load need no memory for it and no time in the step.
         if (!(squared_norm(gravity_) > 0)) return;
         for (std::size_t k = 0; k < store.size(); ++k) put(store, k, 0);
     }
-    /// Sum over the loads of what `hash` makes of particle, numbers and their count: the loads in any order.
+    /// Sum over all loads of hash(particle, force, torque, previous force, previous torque, ramp time).
     template <class Hash>
     std::uint64_t sum_of_loads(Hash const& hash) const {
         std::uint64_t sum = 0;
@@ -71,7 +73,9 @@ public:
         return sum;
     }
 
-    /// \param particles how many there are
+    /// Writes or reads the loads.
+    /// \param particles number of particles
+    /// \throws std::runtime_error for loads that contradict each other or this number
     template <class Archive>
     void archive(Archive& ar, std::size_t particles) {
         std::vector<std::size_t> loaded;
@@ -82,13 +86,13 @@ public:
         }
         ar(loaded, values, rising_);
         if constexpr (Archive::is_loading::value) {
-            require_state(loaded.size() == values.size(), "loads that are not one a particle");
+            require_state(loaded.size() == values.size(), "the number of loads");
             load_.clear();
             for (std::size_t n = 0; n < loaded.size(); ++n) {
                 require_state(loaded[n] < particles && (n == 0 || loaded[n - 1] < loaded[n]), "a load on no particle");
                 load_[loaded[n]] = values[n];
             }
-            for (std::size_t const k : rising_) require_state(load_.count(k) == 1, "a rising load that is none");
+            for (std::size_t const k : rising_) require_state(load_.count(k) == 1, "a ramp without a load");
         }
     }
 
@@ -124,7 +128,7 @@ private:
     point gravity_{};
     std::vector<double> weight_share_;
     bool by_particle_ = false;
-    std::map<std::size_t, one_load> load_; ///< of the particles that ever had one, by internal index
+    std::map<std::size_t, one_load> load_; ///< by internal index, for each particle that ever had a load
     std::vector<std::size_t> rising_;
 };
 

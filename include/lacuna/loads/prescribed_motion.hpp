@@ -11,22 +11,24 @@
 
 namespace lacuna {
 
-/// Velocities that particles are made to follow: a linear rise from the velocity they have to the one asked for, then
-/// that one. Those that have arrived cost nothing.
+/// Prescribed velocities of particles: each changes linearly from the current velocity to the target and then stays
+/// there. A particle that has reached its target costs nothing.
 template <int Dim>
 class prescribed_motion {
 public:
     using point = vec<double, Dim>;
 
-    /// Replaces what was prescribed for a particle.
+    /// Replaces the prescribed velocity of a particle.
     /// \param k internal index
-    /// \param from the velocity it has, m/s
-    /// \param to the velocity it is to get, m/s
-    /// \param ramp_time within which it gets there, from `now` on, s; > 0
+    /// \param from current velocity, m/s
+    /// \param to target velocity, m/s
+    /// \param ramp_time duration of the change, which begins at `now`, s; > 0
+    /// \param now current time, s
     void add(std::size_t k, point const& from, point const& to, double ramp_time, double now) {
         forget(k);
         rising_.push_back({k, from, to, now, ramp_time});
     }
+    /// Removes the prescribed velocity of a particle, if there is one.
     void forget(std::size_t k) {
         std::erase_if(rising_, [&](one const& r) { return r.particle == k; });
     }
@@ -36,7 +38,7 @@ public:
         ar(rising_);
     }
 
-    /// Sum over the motions of what `hash` makes of the particle's number and of the motion's: in any order.
+    /// Sum over all motions of hash(particle, from, to, ramp time). It does not depend on their order.
     template <class Hash>
     std::uint64_t sum_of_motions(Hash const& hash) const {
         std::uint64_t sum = 0;
@@ -44,19 +46,19 @@ public:
         return sum;
     }
 
-    /// Whether all motions are of particles below `count`.
+    /// True if all motions belong to particles with an index below `count`.
     bool fits(std::size_t count) const noexcept {
         for (one const& r : rising_)
             if (r.particle >= count) return false;
         return true;
     }
 
-    /// Calls set(k, velocity) for each particle whose velocity still changes, with its mean velocity of the step from
+    /// Calls set(k, velocity) for each particle whose velocity still changes, with its mean velocity over the step from
     /// `time` to `time + time_step`, s.
     template <class Set>
     void advance(double time, double time_step, Set const& set) {
         if (rising_.empty()) return;
-        auto const risen = [](one const& r, double t) { // integral of the share reached so far, s
+        auto const risen = [](one const& r, double t) { // integral of the share of the change over time, s
             double const u = t - r.start;
             return u <= 0 ? 0.0 : u < r.ramp_time ? 0.5 * u * u / r.ramp_time : u - 0.5 * r.ramp_time;
         };

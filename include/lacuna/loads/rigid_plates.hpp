@@ -15,12 +15,12 @@
 
 namespace lacuna {
 
-/// Rigid, smooth plates without mass of their own: groups of particles that move as one along an axis and freely across
-/// it. A plate shares out the sum F of the forces on its M kg of particles so that all accelerate alike,
+/// Rigid, smooth, massless plates: groups of particles that move as one along an axis and freely across it. A plate
+/// distributes the sum F of the forces on its particles, of total mass M, so that all have the same acceleration:
 ///
 ///   f_k <- m_k F / M
 ///
-/// which leaves their momentum as it is, and does no work, as what it adds sums to zero and they have one velocity.
+/// The forces that a plate adds sum to zero and act at one common velocity: they conserve momentum and do no work.
 template <class Real, int Dim>
 class rigid_plates {
 public:
@@ -28,8 +28,9 @@ public:
 
     /// Adds a plate.
     /// \param particles internal indices
-    /// \throws std::invalid_argument naming the particle that is given twice, is in another plate of this axis, or has
-    ///         another velocity than the first, and for a plate of none
+    /// \param axis axis along which they move as one
+    /// \throws std::invalid_argument naming a particle that is given twice, is in another plate of this axis, or has
+    ///         another velocity than the first; also for a plate without particles
     void add(particle_store<Real, Dim> const& store, std::vector<std::size_t> particles, int axis) {
         require_in("axis of a rigid plate", axis, 0, Dim - 1);
         if (particles.empty()) refuse("particles of a rigid plate", "none", "at least one");
@@ -52,9 +53,9 @@ public:
         end_.push_back(std::uint32_t(particles_.size()));
     }
 
-    /// Shares out the forces. A plate with a particle that is held along the axis does not accelerate.
-    /// \param force callable k -> all forces on particle k, N
-    /// \param extra as the integrators read it; what the plates add goes here, N
+    /// Distributes the forces. A plate with a particle that is fixed along the axis does not accelerate.
+    /// \param force callable: k -> sum of all forces on particle k, N
+    /// \param extra receives the forces that the plates add, N; layout as in symplectic_euler::advance()
     template <class Force>
     void share(particle_store<Real, Dim> const& store, Force const& force, record_column<Real>& extra) const {
         for (std::size_t g = 0; g < axis_.size(); ++g) {
@@ -72,8 +73,8 @@ public:
         }
     }
 
-    /// Sum over the plates of what `of_plate` makes of the axis and of the sum of what `of_particle` makes of the particles:
-    /// in any order.
+    /// Sum over all plates of of_plate(axis, sum of of_particle(k) over its particles). It does not depend on the order
+    /// of plates and particles.
     template <class OfParticle, class OfPlate>
     std::uint64_t sum_of_plates(OfParticle const& of_particle, OfPlate const& of_plate) const {
         std::uint64_t sum = 0;
@@ -93,7 +94,7 @@ public:
                       "a rigid plate");
         for (int const axis : axis_) require_state(axis >= 0 && axis < Dim, "a rigid plate's axis");
     }
-    /// Whether all plates are of particles below `count`.
+    /// True if all plates consist of particles with an index below `count`.
     bool fit(std::size_t count) const noexcept {
         return std::all_of(particles_.begin(), particles_.end(), [&](std::uint32_t k) { return k < count; });
     }
@@ -105,7 +106,7 @@ private:
     }
 
     std::vector<int> axis_;            // of each plate
-    std::vector<std::uint32_t> end_;   // of its particles in the list
+    std::vector<std::uint32_t> end_;   // end of each plate's particles in particles_
     std::vector<std::uint32_t> particles_;
 };
 

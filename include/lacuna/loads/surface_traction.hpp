@@ -7,16 +7,17 @@
 
 namespace lacuna {
 
-/// How a pressure on a row of particles becomes a force on each.
+/// The area of a particle on which a pressure on a row of particles acts.
 enum class traction_area {
     disc, ///< the disc's face, pi r^2: the cartilage model's default
-    strip ///< the strip that the disc covers, 2 r t
+    strip ///< the strip that the disc covers, 2 r t (t: thickness)
 };
 
 /// Force that a pressure exerts on one particle of the loaded row, N.
 /// \param pressure Pa
 /// \param radius m
-/// \param thickness m, for traction_area::strip
+/// \param thickness m, used by traction_area::strip
+/// \throws std::invalid_argument naming field, value and rule
 inline double traction_force(double pressure, double radius, double thickness, traction_area area) {
     require_finite("pressure", pressure);
     require_positive("radius", radius);

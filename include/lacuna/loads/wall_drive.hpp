@@ -20,18 +20,18 @@ namespace lacuna {
 ///
 ///   v = clamp(G (stress * area - F), +- max_speed),   G = relaxation / (dt sum of k_n)
 ///
-/// F is the particles' force on the wall against its normal, the sum runs over the contacts that the wall has: were its
-/// particles held, a step would make up that share of the missing force. Without a contact it comes at max_speed.
-/// Limits: the force is held at the wall, not within the body, and a wall that has to move at v to hold it is off by
-/// v / G.
+/// F is the particles' force on the wall against its normal. The sum runs over the wall's contacts. If its particles
+/// did not move, one step would supply the share `relaxation` of the missing force. A wall without contacts advances at
+/// max_speed. Limits: the servo controls the force at the wall, not inside the specimen. If the wall must move at v to
+/// hold the force, the force is off by v / G.
 template <int Dim>
 struct wall_servo {
     double stress = 0;       ///< Pa, >= 0
-    double area = 0;         ///< on which it acts, m^2; 0: what the walls `between` leave of the wall
+    double area = 0;         ///< area on which the stress acts, m^2; 0: from the distances of the walls `between`
     double max_speed = 0;    ///< m/s, > 0
-    double relaxation = 0.5; ///< share of the missing force that a step makes up; > 0, at most 1
+    double relaxation = 0.5; ///< share of the missing force that one step supplies, 1; > 0, at most 1
     /// Pairs of opposite walls, by their numbers: the area is the product of their distances, in the plane times the
-    /// thickness. Read where area is 0.
+    /// thickness. Used if area is 0.
     std::array<std::array<std::int32_t, 2>, std::size_t(Dim - 1)> between{};
 
     /// \throws std::invalid_argument naming field, value and rule.
@@ -48,7 +48,7 @@ struct wall_servo {
     }
 };
 
-/// Moves walls: at prescribed velocities, or as a servo asks.
+/// Moves walls at prescribed velocities or by servos.
 template <int Dim>
 class wall_drive {
 public:
@@ -57,7 +57,7 @@ public:
     wall_drive() = default;
     wall_drive(std::size_t walls, double thickness) : servo_(walls), thickness_(thickness) {}
 
-    /// From the velocity that the wall has to `v`, linearly within ramp_time from `now` on; 0: at once. m/s, s.
+    /// Changes a wall's velocity linearly from the current one to `v`, m/s, in ramp_time after `now`, s; 0: at once.
     /// \throws std::invalid_argument naming wall, value and rule.
     template <class Walls>
     void move(Walls& walls, std::size_t w, point const& v, double ramp_time, double now) {
@@ -71,7 +71,7 @@ public:
         else
             walls.set_velocity(w, v);
     }
-    /// Lets a servo move the wall from now on.
+    /// From now on a servo moves the wall.
     /// \throws std::invalid_argument naming wall, field, value and rule.
     void hold(std::size_t w, wall_servo<Dim> const& servo) {
         servo.validate(checked(w) + ".servo", servo_.size());
@@ -79,14 +79,15 @@ public:
         servo_[w] = {servo, 1};
     }
 
-    /// Gives the walls their velocities of the step from `time` to `time + time_step`, from the forces at `time`.
+    /// Sets the velocities of the walls for the step from `time` to `time + time_step`, s. Servos use the forces at
+    /// `time`.
     template <class Walls>
     void advance(Walls& walls, double time, double time_step) {
         motions_.advance(time, time_step, [&](std::size_t w, point const& v) { walls.set_velocity(w, v); });
         for (std::size_t w = 0; w < servo_.size(); ++w)
             if (servo_[w].on) walls.set_velocity(w, walls.normal(w) * speed(walls, w, time_step));
     }
-    /// Area of a wall that a servo holds, m^2.
+    /// Area on which a servo's stress acts, m^2.
     template <class Walls>
     double area(Walls const& walls, std::size_t w) const {
         auto const& servo = servo_[w].law;
@@ -98,7 +99,7 @@ public:
         return product;
     }
 
-    /// Sum over what moves the walls of what `hash` makes of the wall and of the numbers that say how.
+    /// Sum of the hashes of all prescribed motions, velocities and servos of walls.
     template <class Walls, class Hash>
     std::uint64_t sum_of_motions(Walls const& walls, Hash const& hash) const {
         std::uint64_t sum = motions_.sum_of_motions([&](auto const&... value) { return hash(0, value...); });
@@ -116,7 +117,7 @@ public:
     template <class Archive>
     void serialize(Archive& ar) {
         ar(motions_, fixed_length{servo_});
-        require_state(motions_.fits(servo_.size()), "a motion prescribed to no wall");
+        require_state(motions_.fits(servo_.size()), "a prescribed motion of a wall that does not exist");
         for (auto const& s : servo_) {
             require_state(s.on == 0 || s.on == 1, "whether a wall has a servo");
             if (s.on && !(s.law.area > 0))

@@ -13,33 +13,35 @@ namespace lacuna {
 
 /// Rigorous upper bound of the highest eigenfrequency of an assembly, in one pass over its stiffnesses.
 ///
-/// The explicit scheme is stable while dt < 2 / omega_max, omega_max^2 being the largest eigenvalue of the
-/// mass-scaled tangent matrix A = M^-1/2 K M^-1/2 over translations and rotations. By Gershgorin's theorem no
-/// eigenvalue exceeds the largest sum of absolute values of a row, also after a similarity transformation
-/// diag(1, a): rows are kept apart by translations and rotations, and the best of several a is taken.
-/// Diagonal blocks are summed with their signs (they cancel in part), the rest by absolute value.
+/// The explicit scheme is stable while dt < 2 / omega_max. omega_max^2 is the largest eigenvalue of the mass-scaled
+/// tangent matrix A = M^-1/2 K M^-1/2 over translations and rotations. By Gershgorin's theorem no eigenvalue exceeds
+/// the largest sum of absolute values of a row. This also holds after a similarity transformation diag(1, a): a row is
+/// summed separately over translations and rotations, and the smallest bound for several a is taken. Diagonal blocks
+/// are summed with their signs (they cancel in part), the rest by absolute value.
 template <int Dim>
 class frequency_bound {
 public:
-    static constexpr int turns = rotation_dim<Dim>;
-    static constexpr int freedoms = Dim + turns;
+    static constexpr int rotations = rotation_dim<Dim>;
+    static constexpr int freedoms = Dim + rotations;
     using point = vec<double, Dim>;
     using gradient = std::array<double, std::size_t(freedoms)>;
 
     frequency_bound() = default;
     explicit frequency_bound(std::size_t particles) { reset(particles); }
-    /// No stiffness any more; allocates nothing for a number of particles that it had before.
+    /// Removes all stiffnesses. Allocates nothing unless the number of particles exceeds all earlier ones.
     void reset(std::size_t particles) {
         root_mobility_.resize(particles);
         block_.assign(particles, {});
-        beside_.assign(particles, {});
+        off_diagonal_.assign(particles, {});
     }
 
-    /// Square roots come from here: inverse mass along `axis` (axis >= Dim: inverse moment of inertia), 0 if fixed.
+    /// Sets the inverse mass of a particle along `axis`, 1/kg (axis >= Dim: the inverse moment of inertia, 1/(kg m^2));
+    /// 0 if fixed.
     void set_mobility(std::size_t k, int axis, double mobility) { root_mobility_[k][std::size_t(axis)] = std::sqrt(mobility); }
 
-    /// A spring between two particles: stiffness k_n along the normal, k_s across it with lever arms to the
-    /// centres, and a prestress stiffness (force over distance) across it, without lever arms. N/m, m.
+    /// Adds a spring between two particles. It has a stiffness along the normal, one across it that acts with lever
+    /// arms to the centres, and a prestress stiffness (force over distance) across it without lever arms. Units: N/m,
+    /// m.
     void add_pair(std::size_t i, std::size_t j, point const& normal, double normal_stiffness, double shear_stiffness,
                   double prestress, double lever_i, double lever_j) {
         auto const axes = frame(normal);
@@ -52,7 +54,7 @@ public:
         }
     }
 
-    /// The same between a particle and something that does not move.
+    /// Adds a spring between a particle and a fixed support. Units: N/m, m.
     void add_support(std::size_t i, point const& normal, double normal_stiffness, double shear_stiffness, double lever) {
         auto const axes = frame(normal);
         for (int a = 0; a < Dim; ++a)
@@ -60,7 +62,7 @@ public:
                 a == 0 ? normal_stiffness : shear_stiffness);
     }
 
-    /// Springs against the turn of two particles against each other: across the normal, and about it. N m/rad.
+    /// Adds springs against the relative rotation of two particles, across the normal and about it, N m/rad.
     void add_rotational(std::size_t i, std::size_t j, point const& normal, double bending, double twisting) {
         std::array<std::size_t, 2> const who{i, j};
         for_each_rotation(normal, [&](int a, gradient const& g) {
@@ -69,14 +71,14 @@ public:
             add(who, std::array{g, opposite}, a == 0 ? twisting : bending);
         });
     }
-    /// The same against something that does not turn.
+    /// Adds springs against the rotation of a particle relative to a fixed support, N m/rad.
     void add_rotational(std::size_t i, point const& normal, double bending, double twisting) {
         for_each_rotation(normal, [&](int a, gradient const& g) {
             add(std::array{i}, std::array<gradient, 1>{g}, a == 0 ? twisting : bending);
         });
     }
 
-    /// Energy 1/2 stiffness (sum over particles g . displacement)^2: a pore that resists a change of volume.
+    /// Adds the energy 1/2 stiffness (sum over particles g . displacement)^2, as for a pore that resists compression.
     template <std::size_t Count>
     void add(std::array<std::size_t, Count> const& who, std::array<gradient, Count> const& g, double stiffness) {
         for (std::size_t p = 0; p < Count; ++p)
@@ -84,28 +86,28 @@ public:
                 double const ga = g[p][std::size_t(a)] * root_mobility_[who[p]][std::size_t(a)];
                 if (ga == 0) continue;
                 auto& own = block_[who[p]];
-                auto& beside = beside_[who[p]];
+                auto& off_diagonal = off_diagonal_[who[p]];
                 for (std::size_t q = 0; q < Count; ++q)
                     for (int b = 0; b < freedoms; ++b) {
                         double const entry = stiffness * ga * g[q][std::size_t(b)] * root_mobility_[who[q]][std::size_t(b)];
                         if (q == p)
                             own[std::size_t(a * freedoms + b)] += entry;
                         else
-                            beside[std::size_t(2 * a + (b >= Dim))] += std::fabs(entry);
+                            off_diagonal[std::size_t(2 * a + (b >= Dim))] += std::fabs(entry);
                     }
             }
     }
 
-    /// Upper bound of omega_max, rad/s; 0 without any stiffness.
+    /// The upper bound of omega_max, rad/s; 0 without any stiffness.
     double frequency() const {
         constexpr int scales = 7; // 0.5 to 4
         std::array<double, scales> scale{0.5}, largest{};
         for (std::size_t s = 1; s < scales; ++s) scale[s] = scale[s - 1] * std::sqrt(2.0);
         for (std::size_t k = 0; k < block_.size(); ++k)
             for (int a = 0; a < freedoms; ++a) {
-                double sums[2] = {beside_[k][std::size_t(2 * a)], beside_[k][std::size_t(2 * a + 1)]};
+                double sums[2] = {off_diagonal_[k][std::size_t(2 * a)], off_diagonal_[k][std::size_t(2 * a + 1)]};
                 for (int b = 0; b < freedoms; ++b) sums[b >= Dim] += std::fabs(block_[k][std::size_t(a * freedoms + b)]);
-                // Written so that a sum that is not a number becomes the bound, and the step zero.
+                // This form passes not-a-number on to the bound, so that the step becomes zero.
                 if (sums[0] + sums[1] == 0) continue;
                 for (std::size_t s = 0; s < scales; ++s) {
                     double const row = a < Dim ? sums[0] + scale[s] * sums[1] : sums[0] / scale[s] + sums[1];
@@ -120,34 +122,34 @@ public:
         return std::sqrt(best);
     }
 
-    /// Safe step of the explicit scheme, 2 / frequency(), s; infinite without any stiffness.
+    /// The safe step of the explicit scheme, 2 / frequency(), s; infinite without any stiffness.
     double time_step() const { return 2 / frequency(); }
-    /// The same with damping, which shortens it because the scheme knows only the velocity of half a step ago.
+    /// The safe step with damping, s. It is shorter, because the scheme uses the velocity of half a step before.
     ///
-    /// With damping forces C v of that velocity, K + 2 C / dt takes the place of K: dt^2 a + 2 dt b = 4, a and b bounds
-    /// of the largest eigenvalues of the mass-scaled K and C.
-    /// \param dashpots the damping coefficients, in N s/m, added in place of stiffnesses
-    /// \param force_factor by how much damping can enlarge a force: 1 + alpha with local damping
-    /// \param drag_rate of a drag proportional to mass and velocity, 1/s
+    /// With damping forces C v of that velocity, K + 2 C / dt replaces K. This gives dt^2 a + 2 dt b = 4, where a and b
+    /// bound the largest eigenvalues of the mass-scaled K and C.
+    /// \param dashpots a bound to which damping coefficients, N s/m, were added instead of stiffnesses
+    /// \param force_factor largest factor by which damping enlarges a force: 1 + alpha for local damping
+    /// \param drag_rate drag over momentum, 1/s
     double time_step(frequency_bound const& dashpots, double force_factor, double drag_rate = 0) const {
         double const stiff = frequency(), viscous = dashpots.frequency();
         return step_of(force_factor * stiff * stiff, force_factor * (viscous * viscous + drag_rate));
     }
-    /// dt of dt^2 a + 2 dt b = 4, in the notation of time_step(), s.
+    /// The positive solution dt of dt^2 a + 2 dt b = 4, s; see time_step().
     static double step_of(double a, double b) noexcept { return 4 / (b + std::sqrt(b * b + 4 * a)); }
 
 private:
-    /// Calls use(axis number, gradient of the turn about it): 0 for the normal, in space only.
+    /// Calls use(axis, gradient of the rotation about it). Axis 0 is the normal, in space only.
     template <class Use>
     static void for_each_rotation(point const& normal, Use const& use) {
         auto const axes = frame(normal);
         for (int a = Dim == 2 ? 1 : 0; a < Dim; ++a) {
             gradient g{};
-            for (int x = 0; x < turns; ++x) g[std::size_t(Dim + x)] = Dim == 2 ? 1 : axes[std::size_t(a)][x];
+            for (int x = 0; x < rotations; ++x) g[std::size_t(Dim + x)] = Dim == 2 ? 1 : axes[std::size_t(a)][x];
             use(a, g);
         }
     }
-    /// The normal and the tangents.
+    /// The normal, followed by the tangents.
     static std::array<point, std::size_t(Dim)> frame(point const& normal) {
         std::array<point, std::size_t(Dim)> axes{};
         axes[0] = normal;
@@ -161,7 +163,7 @@ private:
         }
         return axes;
     }
-    /// Derivative of the displacement along `axis` of the contact point that sits at lever * normal from the centre.
+    /// Derivative of the displacement along `axis` of the contact point, which is lever * normal from the centre.
     static gradient gradient_of(point const& axis, point const& normal, double lever) {
         gradient g{};
         for (int x = 0; x < Dim; ++x) g[std::size_t(x)] = axis[x];
@@ -176,7 +178,7 @@ private:
 
     std::vector<std::array<double, std::size_t(freedoms)>> root_mobility_;
     std::vector<std::array<double, std::size_t(freedoms* freedoms)>> block_; ///< rows of the diagonal blocks
-    std::vector<std::array<double, std::size_t(2 * freedoms)>> beside_;      ///< per row: translations, rotations
+    std::vector<std::array<double, std::size_t(2 * freedoms)>> off_diagonal_; ///< sums per row: translations, rotations
 };
 
 } // namespace lacuna

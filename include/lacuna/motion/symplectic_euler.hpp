@@ -9,29 +9,31 @@
 
 namespace lacuna {
 
-/// What one chunk of particles reports from its motion in one step.
+/// Summary of the motion of one chunk of particles in one step.
 template <class Real>
 struct motion_report {
     record<Real> fastest{Real(0)}; ///< largest |velocity| by component, m/s; in 2D the third is the surface speed
     record<Real> turning{Real(0)}; ///< 3D: largest surface speed by component, m/s
-    record<Real> poison{Real(0)};  ///< zero; not a number once a velocity is not finite
-    double kinetic = 0;            ///< kinetic energy at the positions of the forces, J
-    double rotation = 0;           ///< of it: of spins, J
+    record<Real> poison{Real(0)};  ///< zero, or not-a-number if a velocity is not finite
+    double kinetic = 0;            ///< kinetic energy at the time of the forces, J
+    double rotation = 0;           ///< part of it due to spins, J
     double load_before = 0;        ///< power of loads and prescribed motion with the old velocity, W
     double load_after = 0;         ///< the same with the new velocity, W
-    double held_before = 0;        ///< of load_before: of prescribed motion, W
-    double held_after = 0;         ///< of load_after: the same, W
+    double held_before = 0;        ///< part of load_before due to prescribed motion, W
+    double held_after = 0;         ///< part of load_after due to prescribed motion, W
     double damping_before = 0;     ///< power of the particles' damping force with the old velocity, W
     double damping_after = 0;      ///< the same with the new velocity, W
 };
 
-/// The semi-implicit (symplectic) Euler step of eq. 3 to 8: new velocity from the old force, new position from
-/// the new velocity. Velocities stand half a step before positions; it is the leapfrog scheme, of second order.
+/// The semi-implicit (symplectic) Euler step of the paper's eq. 3 to 8: the new velocity follows from the old force,
+/// the new position from the new velocity. Velocities belong to the time half a step before the positions: this is the
+/// leapfrog scheme, of second order.
 struct symplectic_euler {
-    /// Advances `count` particles of one block (particle_store::load_block), from `first` on, by one step.
-    /// \param pair_force pair_force(k): sum of the pair forces on particle first + k, torques over radius
-    /// \param extra further forces of this step, or nullptr; per particle a record {F_x, F_y, torque over radius, 0} in
-    ///        2D, two records (force, torque over radius) in 3D
+    /// Advances `count` particles of one block (particle_store::load_block) by one step, from particle `first` on.
+    /// \param pair_force callable: pair_force(k) is the sum of the pair forces on particle first + k, torques over
+    ///        radius, N; a record in 2D, {force, torque over radius} in 3D
+    /// \param extra other forces of this step, N, or nullptr; per particle one record {F_x, F_y, torque over radius, 0}
+    ///        in 2D, two records (force, torque over radius) in 3D
     template <bool WithEnergy, class Damping, class Real, int Dim, class PairForce>
     [[gnu::noinline, gnu::flatten]] static void advance(particle_store<Real, Dim>& store, std::size_t first, int count,
                                           Real time_step, PairForce const& pair_force,
@@ -47,7 +49,7 @@ struct symplectic_euler {
         [[maybe_unused]] bool const torqued = store.torques().size() > 0;
         for (int k = 0; k < count; ++k) {
             std::size_t const p = first + std::size_t(k);
-            rec place = store.bodies().of(p, 0);
+            rec position = store.bodies().of(p, 0);
             rec velocity = store.bodies().of(p, 1);
             rec load(Real(0));
             if (loads) load = rec::load(loads + 4 * k);
@@ -58,7 +60,7 @@ struct symplectic_euler {
                 if constexpr (Damping::acts_on_particles) force += drag;
                 rec next = velocity + force * store.inverse_mass(p) * dt;
                 store.bodies().set(p, next, 1);
-                store.bodies().set(p, place + next * path, 0);
+                store.bodies().set(p, position + next * path, 0);
                 rec size = abs(next);
                 fastest = max(size, fastest);
                 poison += next * rec(Real(0));
@@ -66,8 +68,8 @@ struct symplectic_euler {
             } else {
                 auto [force, torque] = pair_force(k);
                 force += load;
-                rec turning(Real(0));
-                if (torqued) torque += turning = store.torques()[p];
+                rec torque_load(Real(0));
+                if (torqued) torque += torque_load = store.torques()[p];
                 if (extra) {
                     force += (*extra)[2 * p];
                     torque += (*extra)[2 * p + 1];
@@ -76,21 +78,21 @@ struct symplectic_euler {
                 if constexpr (Damping::acts_on_particles) force += drag;
                 rec next = velocity + force * store.inverse_mass(p) * dt;
                 store.bodies().set(p, next, 1);
-                store.bodies().set(p, place + next * path, 0);
+                store.bodies().set(p, position + next * path, 0);
                 rec spin = store.surface_speeds()[p];
                 rec brake = damping_force<Damping>(damping, torque, spin, [&] { return store.inverse_rotary(p); });
                 if constexpr (Damping::acts_on_particles) torque += brake;
-                rec turned = spin + torque * store.inverse_rotary(p) * dt;
-                store.surface_speeds().set(p, turned);
-                store.quaternions().set(p, turn(store.quaternions()[p], turned, time_step / store.radius(p)));
+                rec next_spin = spin + torque * store.inverse_rotary(p) * dt;
+                store.surface_speeds().set(p, next_spin);
+                store.quaternions().set(p, rotate(store.quaternions()[p], next_spin, time_step / store.radius(p)));
                 fastest = max(abs(next), fastest);
-                spinning = max(abs(turned), spinning);
-                poison += (next + turned) * rec(Real(0));
+                spinning = max(abs(next_spin), spinning);
+                poison += (next + next_spin) * rec(Real(0));
                 if constexpr (WithEnergy) {
                     add_energy(store, p, velocity, next, load, force, drag, report);
                     for (int axis = 0; axis < 3; ++axis)
                         add_freedom(surface_inertia(store, p), store.mobility(p, 3) == Real(0), spin[axis],
-                                    turned[axis], double(turning[axis]), torque[axis], brake[axis], true, report);
+                                    next_spin[axis], double(torque_load[axis]), torque[axis], brake[axis], true, report);
                 }
             }
         }
@@ -113,9 +115,9 @@ private:
         }
     }
 
-    /// Eq. 8 in space: the unit quaternion turned by spin * dt, renormalised.
+    /// The paper's eq. 8 in space: the unit quaternion q rotated by spin * dt, renormalised.
     template <class Real>
-    static record<Real> turn(record<Real> const& q, record<Real> const& w, Real time_step) {
+    static record<Real> rotate(record<Real> const& q, record<Real> const& w, Real time_step) {
         Real const h = Real(0.5) * time_step;
         record<Real> r;
         r.v[0] = q[0] - h * (w[0] * q[1] + w[1] * q[2] + w[2] * q[3]);
@@ -125,34 +127,34 @@ private:
         return r * record<Real>(Real(1) / std::sqrt(sum(r * r)));
     }
 
-    /// Moment of inertia as the surface speed sees it, I / r^2.
+    /// Inertia for the surface speed, I / r^2, kg.
     template <class Real, int Dim>
     static double surface_inertia(particle_store<Real, Dim> const& store, std::size_t p) {
         return double(store.moment_of_inertia(p)) / (double(store.radius(p)) * double(store.radius(p)));
     }
 
-    /// The kinetic energy at the time of the positions is the product of the velocities half a step before and
-    /// after it: with it, and with work as mean force times displacement, a linear system's energy adds up to
-    /// rounding in this scheme. A prescribed motion does the work that its reaction, minus the force, does.
+    /// The kinetic energy at the time of the positions is 1/2 m times the product of the velocities half a step before
+    /// and after. With it, and with work as mean force times displacement, the energy balance of a linear system closes
+    /// up to rounding in this scheme. A prescribed motion does the work of its reaction, which is minus the force.
     template <class Real, int Dim>
     static void add_energy(particle_store<Real, Dim> const& store, std::size_t p, record<Real> const& before,
                            record<Real> const& after, record<Real> const& load, record<Real> const& force,
                            record<Real> const& drag, motion_report<Real>& report) {
         for (int axis = 0; axis < 3; ++axis) {
-            bool const turning = Dim == 2 && axis == 2;
-            add_freedom(turning ? surface_inertia(store, p) : double(store.mass(p)),
+            bool const rotation = Dim == 2 && axis == 2;
+            add_freedom(rotation ? surface_inertia(store, p) : double(store.mass(p)),
                         store.mobility(p, axis) == Real(0), before[axis], after[axis], load[axis], force[axis],
-                        drag[axis], turning, report);
+                        drag[axis], rotation, report);
         }
     }
 
     template <class Real>
     static void add_freedom(double inertia, bool held, double before, double after, double load, double force,
-                            double drag, bool turning, motion_report<Real>& report) {
+                            double drag, bool rotation, motion_report<Real>& report) {
         double const reaction = held ? -force : 0, outside = load + reaction;
         double const kinetic = 0.5 * inertia * before * after;
         report.kinetic += kinetic;
-        if (turning) report.rotation += kinetic;
+        if (rotation) report.rotation += kinetic;
         report.held_before += reaction * before;
         report.held_after += reaction * after;
         report.load_before += outside * before;
@@ -191,8 +193,8 @@ concept integrator_advance = requires(particle_store<double, Dim>& store, record
 };
 } // namespace detail
 
-/// An integrator, the slot filled by symplectic_euler and velocity_verlet: advances the particles of a chunk by one step;
-/// see symplectic_euler::advance(), also for what it has to write to the report.
+/// Requirements on an integrator, such as symplectic_euler and velocity_verlet. It advances the particles of a chunk by
+/// one step and fills a report; see symplectic_euler::advance() and motion_report.
 template <class I, int Dim = 2>
 concept integrator = detail::integrator_advance<I, Dim, false> && detail::integrator_advance<I, Dim, true>;
 

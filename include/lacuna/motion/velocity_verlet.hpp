@@ -5,16 +5,17 @@
 
 namespace lacuna {
 
-/// Velocity Verlet, in its leapfrog form: a velocity that a particle is given is that at the time of its position, so
-/// the first kick after it is half a step's. Positions are those of velocity Verlet, of second order in the step.
+/// Velocity Verlet in its leapfrog form. A velocity that the caller sets is the velocity at the time of the position,
+/// so the first change of velocity after it covers half a step. Positions are those of velocity Verlet, of second order
+/// in the step.
 ///
-/// In between, velocities stand half a step before positions, as in symplectic_euler: that is where dashpots, slips and
-/// the energy ledger need them.
+/// Between such calls, velocities belong to the time half a step before the positions, as in symplectic_euler:
+/// dashpots, slips and the energy ledger need them at that time.
 struct velocity_verlet : symplectic_euler {
     static constexpr bool starts_on_time = true;
 };
 
-/// Whether velocities given to particles are those at the time of the positions, by an integrator's default.
+/// True if, by the integrator's default, velocities that the caller sets are those at the time of the positions.
 template <class Integrator>
 inline constexpr bool starts_on_time = requires { requires Integrator::starts_on_time; };
 

@@ -9,11 +9,11 @@
 #include <lacuna/core/vec.hpp>
 
 /// \file
-/// Domain policies: the space in which a model's particles are.
+/// Domain policies: the space that contains a model's particles.
 
 namespace lacuna {
 
-/// Without end.
+/// Unbounded space.
 struct open_domain {
     static constexpr bool periodic = false;
     template <int Dim>
@@ -22,9 +22,9 @@ struct open_domain {
     };
 };
 
-/// Repeats itself along some axes: each particle stands for itself and for its images, a period apart. Two particles meet
-/// by the shortest way between any of their images. Positions are not brought back into one period: they tell how far a
-/// particle has come. Periods stay as they are.
+/// Space that repeats along some axes: each particle has images one period apart. Two particles interact along the
+/// shortest vector between any of their images. Positions are not wrapped into one period, so they show how far a
+/// particle has moved. Periods are constant.
 struct periodic_domain {
     static constexpr bool periodic = true;
     template <int Dim>
@@ -57,12 +57,12 @@ concept domain_period = !requires { requires D::periodic; } || requires(typename
 };
 } // namespace detail
 
-/// A domain policy, the slot filled by open_domain and periodic_domain: the constant `periodic`, and `parameters<Dim>` with
-/// `validate(std::string const& name)` and, where periodic, `period`, m.
+/// Requirements on a domain policy, such as open_domain and periodic_domain: the constant `periodic`, and
+/// `parameters<Dim>` with `validate(std::string const& name)` and, if periodic, `period`, m.
 template <class D, int Dim = 2>
 concept domain_policy = detail::domain_flag<D> && detail::domain_parameters<D, Dim> && detail::domain_period<D, Dim>;
 
-/// The periods of a domain, and their inverses; 0 along open axes.
+/// The periods of a domain, m, and their inverses, 1/m; 0 along open axes.
 template <class Real, int Dim>
 struct periods {
     vec<Real, Dim> length{}, inverse{};
@@ -77,16 +77,17 @@ struct periods {
     }
     bool any() const noexcept { return squared_norm(inverse) > Real(0); }
 
-    /// The shortest of the ways that lead from one point to the images of another.
+    /// The shortest vector from a point to an image of another.
+    /// \param between vector from the point to the other point, m
     template <class T>
-    vec<T, Dim> shortest(vec<T, Dim> way) const noexcept {
-        // A number this large has no places after the point: adding it rounds, for packs as for plain numbers.
+    vec<T, Dim> shortest(vec<T, Dim> between) const noexcept {
+        // A number this large has no fractional digits: adding and subtracting it rounds packs and plain numbers alike.
         constexpr auto large = value_t<T>(sizeof(value_t<T>) == 8 ? 6755399441055744.0 : 12582912.0);
         for (int axis = 0; axis < Dim; ++axis) {
-            T whole = (way[axis] * T(inverse[axis]) + T(large)) - T(large);
-            way[axis] = way[axis] - whole * T(length[axis]);
+            T whole = (between[axis] * T(inverse[axis]) + T(large)) - T(large);
+            between[axis] = between[axis] - whole * T(length[axis]);
         }
-        return way;
+        return between;
     }
 };
 

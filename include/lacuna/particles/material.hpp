@@ -7,10 +7,10 @@
 
 namespace lacuna {
 
-/// A material of a model: density, and what it contributes to the model's contact and bond law.
+/// A material of a model: its density and its values for the contact law and the bond law.
 template <class ContactLaw, class BondLaw>
 struct material_of {
-    double density = 1000; ///< kg/m^3; of particles that have none of their own, see packing::density
+    double density = 1000; ///< kg/m^3; for particles without their own density, see packing::density
     typename ContactLaw::material contact{};
     typename BondLaw::material bond{};
 

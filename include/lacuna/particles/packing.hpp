@@ -15,20 +15,20 @@
 
 namespace lacuna {
 
-/// Particles before they become a simulation: where they are, how large, of which material, which pairs are
-/// bonded. All lengths in m. `position`, `radius` and `material` have one entry per particle, `density` one or none at
-/// all, `bond_type` one per bond or none at all.
+/// The particles and bonds from which a simulation starts. All lengths in m. `position`, `radius` and `material` have
+/// one entry per particle. `density` has one entry per particle or is empty; `bond_type` has one entry per bond or is
+/// empty.
 template <class Real, int Dim>
 struct packing {
     std::vector<vec<Real, Dim>> position;
     std::vector<Real> radius;
     std::vector<int> material;
     std::vector<std::array<std::int32_t, 2>> bonds; ///< pairs of particle numbers, each pair once
-    std::vector<double> density{};                  ///< of each particle, kg/m^3; none: those of their materials
-    /// Kinds of bonds, from 0 on, as a file has them; see by_bond_type(). A simulation of bonds of several kinds has to be
-    /// given the values of its bonds.
+    std::vector<double> density{};                  ///< of each particle, kg/m^3; empty: those of their materials
+    /// Type of each bond, counted from 0, as read from a file; see by_bond_type(). A simulation of bonds of several
+    /// types needs the values of its bonds.
     std::vector<int> bond_type{};
-    vec<double, Dim> period{}; ///< of the periodic box that the packing was made in, m; 0 along open axes
+    vec<double, Dim> period{}; ///< of the periodic box for which the packing was made, m; 0 along open axes
 
     std::size_t size() const noexcept { return position.size(); }
 
@@ -39,7 +39,8 @@ struct packing {
         material.push_back(m);
         return std::int32_t(position.size() - 1);
     }
-    /// \throws std::invalid_argument unless there is one radius and one material per particle, one density or none at all
+    /// Checks that the arrays with one entry per particle have the same length.
+    /// \throws std::invalid_argument unless there is one radius, one material, and one or no density per particle
     void require_one_each() const {
         auto const check = [&](char const* name, std::size_t count) {
             if (count != size()) refuse(name, double(count), "one per particle");
@@ -48,8 +49,9 @@ struct packing {
         check("packing.material.size()", material.size());
         if (!density.empty()) check("packing.density.size()", density.size());
     }
-    /// \param values how many bonds are given values of their own
-    /// \throws std::invalid_argument for bonds of several kinds that would be made alike
+    /// Checks that bonds of several types have values.
+    /// \param values number of bonds for which the caller gives values
+    /// \throws std::invalid_argument for bonds of several types without values, which would all be alike
     void require_bond_kinds(std::size_t values) const {
         if (bond_type.empty()) return;
         if (bond_type.size() != bonds.size())
@@ -60,8 +62,9 @@ struct packing {
                                                        std::to_string(bond_type[0] + 1) + " and " + std::to_string(type + 1) +
                                                        "; or packing.bond_type cleared");
     }
-    /// \param domain period of the space that the packing is put into, 0 along open axes, m
-    /// \throws std::invalid_argument where the packing was made for another
+    /// Checks that the packing fits into a domain.
+    /// \param domain period of the domain, 0 along open axes, m
+    /// \throws std::invalid_argument if the packing was made for another period
     void require_period(vec<double, Dim> const& domain) const {
         for (int axis = 0; axis < Dim; ++axis)
             if (period[axis] > 0 && period[axis] != domain[axis])
@@ -69,9 +72,9 @@ struct packing {
     }
 };
 
-/// The values of bonds by their kinds: for simulation_parameters::bonds.
-/// \param of_type values of the bonds of each kind, as packing.bond_type counts them
-/// \throws std::invalid_argument for a kind without values
+/// Returns the values of each bond by its type, for simulation_parameters::bonds.
+/// \param of_type values for each type; the index is that of packing.bond_type
+/// \throws std::invalid_argument for a type without values
 template <class Values, class Real, int Dim>
 std::vector<Values> by_bond_type(packing<Real, Dim> const& packing, std::vector<Values> const& of_type) {
     std::vector<Values> values;
@@ -99,21 +102,21 @@ packing<Real, Dim> convert_packing(packing<From, Dim> const& from) {
     return to;
 }
 
-/// What can be said of a packing of discs at a glance.
+/// Summary of a packing of discs.
 struct packing_statistics {
     std::size_t particles = 0;
     std::size_t bonded = 0;        ///< particles with at least one bond
     std::size_t bonds = 0;
-    double area_fraction = 0;      ///< sum of disc areas over the area given, 1
+    double area_fraction = 0;      ///< sum of disc areas over the given area, 1
     double mean_radius = 0;        ///< m
     double max_overlap = 0;        ///< largest overlap of a pair over the smaller radius of the pair, 1
     double mean_coordination = 0;  ///< mean number of neighbours with gap <= tolerance * smaller radius
     std::size_t loose = 0;         ///< particles with fewer than two such neighbours
 };
 
-/// Measures a packing of discs.
+/// Computes the statistics of a packing of discs.
 /// \param discs the packing, m
-/// \param area the area that the discs share, m^2; 0 leaves the area fraction at 0
+/// \param area the area that contains the discs, m^2; 0 leaves the area fraction at 0
 /// \param contact_tolerance largest gap, relative to the smaller radius, that still counts as touching
 template <class Real>
 packing_statistics measure_packing(packing<Real, 2> const& discs, double area, double contact_tolerance) {
@@ -139,7 +142,7 @@ packing_statistics measure_packing(packing<Real, 2> const& discs, double area, d
     detail::disc_grid grid(x, 2 * largest);
     std::size_t touching = 0;
     for (std::size_t i = 0; i < x.size(); ++i) {
-        std::size_t here = 0;
+        std::size_t neighbours = 0;
         double const r = double(discs.radius[i]);
         grid.for_each_near(x[i], (2 + contact_tolerance) * largest * (1 + 1e-8), [&](std::size_t j) {
             if (j == i) return;
@@ -147,10 +150,10 @@ packing_statistics measure_packing(packing<Real, 2> const& discs, double area, d
             double const smaller = r < other ? r : other;
             double const gap = (norm(x[j] - x[i]) - r - other) / smaller;
             if (-gap > s.max_overlap) s.max_overlap = -gap;
-            if (touches(x[i], r, x[j], other, contact_tolerance * smaller)) ++here;
+            if (touches(x[i], r, x[j], other, contact_tolerance * smaller)) ++neighbours;
         });
-        touching += here;
-        if (here < 2) ++s.loose;
+        touching += neighbours;
+        if (neighbours < 2) ++s.loose;
     }
     s.mean_coordination = double(touching) / double(x.size());
     return s;

@@ -11,7 +11,7 @@
 
 namespace lacuna::detail {
 
-/// Square cells over a set of points in the plane, for the generators' own neighbour questions.
+/// A grid of square cells over points in the plane, for neighbour searches within generators of packings.
 class disc_grid {
 public:
     disc_grid() = default;
@@ -29,7 +29,7 @@ public:
                 low_[a] = std::min(low_[a], p[a]);
                 high[a] = std::max(high[a], p[a]);
             }
-        // Far-away points must not make the table of cells outgrow the points.
+        // Outliers must not make the table of cells larger than the list of points.
         double const span = std::max(high[0] - low_[0], high[1] - low_[1]);
         cell_ = std::max(cell, span / (4 * std::sqrt(double(points.size())) + 64));
         for (int a = 0; a < 2; ++a) count_[a] = std::int64_t((high[a] - low_[a]) / cell_) + 1;
@@ -41,7 +41,7 @@ public:
         for (std::size_t i = 0; i < points.size(); ++i) index_[next[cell_of(points[i])]++] = std::uint32_t(i);
     }
 
-    /// Calls visit(i) for every point within `reach` of x, and for some beyond; always in the same order.
+    /// Calls visit(i) for every point within `reach` of x, and for some points beyond; always in the same order.
     template <class Visit>
     void for_each_near(vec<double, 2> const& x, double reach, Visit&& visit) const {
         if (count_[0] == 0) return;

@@ -16,8 +16,8 @@ namespace lacuna {
 
 namespace detail {
 
-/// Place along the Hilbert curve of a cell with coordinates below 2^Bits (J. Skilling, "Programming the Hilbert
-/// curve", AIP Conf. Proc. 707, 381 (2004)).
+/// Index along the Hilbert curve of a cell with coordinates below 2^Bits (J. Skilling, "Programming the Hilbert curve",
+/// AIP Conf. Proc. 707, 381 (2004)).
 template <int Dim, int Bits>
 constexpr std::uint64_t hilbert_key(std::uint32_t (&x)[std::size_t(Dim)]) noexcept {
     static_assert(Dim * Bits <= 64 && Bits <= 31);
@@ -44,9 +44,9 @@ constexpr std::uint64_t hilbert_key(std::uint32_t (&x)[std::size_t(Dim)]) noexce
     return key;
 }
 
-/// Along one axis the interval in which almost all points are, or all where few points more do not need much more room: a
-/// particle that has flown away leaves the others in the order they would have without it. Empty for no points.
-/// \throws std::invalid_argument when a coordinate is not finite
+/// The interval along one axis that contains almost all points, or all of them if it is then at most about twice as
+/// long. So a particle that has flown away does not change the order of the others. {0, 0} for no points.
+/// \throws std::invalid_argument if a coordinate is not finite
 template <class Real, int Dim>
 std::pair<double, double> usual_interval(points_view<Real, Dim> points, int axis, std::vector<double>& buffer) {
     buffer.clear();
@@ -70,11 +70,11 @@ std::pair<double, double> usual_interval(points_view<Real, Dim> points, int axis
 
 } // namespace detail
 
-/// Numbering in which neighbours in space are neighbours in memory: particles along a Hilbert curve.
+/// Orders particles along a Hilbert curve, so that neighbours in space are neighbours in memory.
 /// \param points positions, m; finite
-/// \return order, a permutation: particle order[k] of the input becomes number k. Points that share a cell of the
-///         curve (1/65535 of the extent) come in the order of their coordinates.
-/// \throws std::invalid_argument when a coordinate is not finite
+/// \return a permutation: particle order[k] of the input becomes number k. Points that share a cell of the curve
+///         (1/65535 of the extent) are ordered by their coordinates.
+/// \throws std::invalid_argument if a coordinate is not finite
 template <class Real, int Dim>
 std::vector<std::int32_t> spatial_order(points_view<Real, Dim> points) {
     constexpr int bits = 16;
@@ -107,16 +107,15 @@ std::vector<std::int32_t> spatial_order(points_view<Real, Dim> points) {
     return order;
 }
 
-/// Numbering of particles in the plane along a curve that sweeps it strip by strip, back and forth, each strip as
-/// wide as a particle has room and across the longer side of the body.
+/// Orders particles in the plane along a curve that sweeps the packing strip by strip, back and forth. Strips run
+/// across the longer side of the packing and are as wide as the mean distance of particles.
 ///
-/// A step that visits the particles in this order has all partners of a particle within about one strip on either
-/// side: a window that stays in the cache even of a million particles, so that each record comes from memory once.
-/// Along a Hilbert curve most partners are closer, but some are very far. In space, where the window is a whole
-/// layer, spatial_order() is the better one.
+/// In this order all partners of a particle are within about one strip on either side. This window stays in the cache
+/// even for a million particles, so that each record comes from memory once. Along a Hilbert curve most partners are
+/// closer, but some are very far. In space the window is a whole layer, and spatial_order() is better.
 /// \param points positions, m; finite
-/// \return as spatial_order()
-/// \throws std::invalid_argument when a coordinate is not finite
+/// \return as for spatial_order()
+/// \throws std::invalid_argument if a coordinate is not finite
 template <class Real>
 std::vector<std::int32_t> strip_order(points_view<Real, 2> points) {
     double low[2] = {0, 0}, side[2] = {0, 0};
@@ -131,21 +130,21 @@ std::vector<std::int32_t> strip_order(points_view<Real, 2> points) {
     double const strips = width > 0 ? side[along] / width : 0.0;
     struct key {
         std::int64_t strip;
-        double place, depth;
+        double position, depth;
         std::int32_t number;
         bool operator<(key const& o) const noexcept {
             if (strip != o.strip) return strip < o.strip;
-            if (place != o.place) return place < o.place;
+            if (position != o.position) return position < o.position;
             return depth != o.depth ? depth < o.depth : number < o.number;
         }
     };
     std::vector<key> keyed(points.size());
     for (std::size_t i = 0; i < points.size(); ++i) {
-        // As they are given: a difference may be rounded to that of another point.
-        double const depth = double(points(i, along)), place = double(points(i, across));
+        // Absolute coordinates: rounding may make the differences to `low` of two points equal.
+        double const depth = double(points(i, along)), position = double(points(i, across));
         auto const strip = strips < 1e9 && width > 0 ? std::int64_t(std::clamp((depth - low[along]) / width, -1e9, 1e9))
                                                      : std::int64_t(0);
-        keyed[i] = {strip, strip % 2 ? -place : place, depth, std::int32_t(i)};
+        keyed[i] = {strip, strip % 2 ? -position : position, depth, std::int32_t(i)};
     }
     std::sort(keyed.begin(), keyed.end());
     std::vector<std::int32_t> order(points.size());

@@ -23,21 +23,23 @@ enum class mass_model {
     sphere ///< rho 4/3 pi r^3, I = 2/5 m r^2
 };
 
-/// Which of a particle's motions are prescribed: its velocity in these directions is never changed by forces.
+/// The prescribed components of a particle's velocity: forces never change them.
 struct fixed_axes {
     bool x = false, y = false, z = false, rotation = false;
     static constexpr fixed_axes all() { return {true, true, true, true}; }
 };
 
-/// The particles, as the step reads and writes them.
+/// The particles, in the layout that the time step reads and writes.
 ///
-/// Records of four numbers, place and velocity side by side: 2D place {x, y, arc, radius}, velocity {v_x, v_y, surface speed, radius};
-/// 3D place {x, y, z, radius}, velocity {v_x, v_y, v_z, radius}, surface speed {r w_x, r w_y, r w_z, 0}.
-/// Rotations are kept as they appear at the surface: arc = radius times angle, surface speed = radius times spin.
-/// Then the relative motion of a pair is a sum and a difference of records, and torques enter over the radius.
-/// Particles are stored in an order of the library's choice (`internal` index); the order in which they were
-/// given is their stable `id`. In 2D the orientation is kept as an arc: eq. 8's unit vector is
-/// (cos angle, sin angle), which integrates eq. 8 exactly and is of unit length by construction.
+/// Each particle has records of four numbers, position and velocity side by side:
+///   - 2D: position {x, y, arc, radius}, velocity {v_x, v_y, surface speed, radius};
+///   - 3D: position {x, y, z, radius}, velocity {v_x, v_y, v_z, radius}, surface speed {r w_x, r w_y, r w_z, 0}.
+///
+/// Rotations are stored as motions of the surface: arc = radius times angle, surface speed = radius times spin. So the
+/// relative motion of a pair is a sum and a difference of records, and torques are divided by the radius. The library
+/// chooses the order of storage (`internal` index). A particle's `id` is its index in the given packing. In 2D the arc
+/// gives the unit vector of the paper's eq. 8, (cos angle, sin angle): this integrates eq. 8 exactly and has unit
+/// length by construction.
 template <class Real, int Dim>
 class particle_store {
 public:
@@ -47,10 +49,10 @@ public:
 
     particle_store() = default;
 
-    /// \param packing the particles, in order of their ids
-    /// \param order order[internal] = id: a permutation; see spatial_order
-    /// \param density of each material, kg/m^3, for packings without densities of their own
-    /// \param thickness m, for mass_model::disc
+    /// \param packing the particles, in the order of their ids
+    /// \param order a permutation, order[internal] = id; see spatial_order()
+    /// \param density of each material, kg/m^3; used if the packing has no densities
+    /// \param thickness of the discs, m; used by mass_model::disc
     /// \throws std::invalid_argument naming the particle and the value
     particle_store(packing<Real, Dim> const& packing, std::span<std::int32_t const> order,
                    std::span<double const> density, mass_model masses, double thickness)
@@ -69,8 +71,8 @@ public:
         for (unsigned bits = 0; bits < free_patterns; ++bits)
             for (int axis = 0; axis < Dim; ++axis) {
                 moving_.at(bits, axis) = bits >> axis & 1 ? Real(1) : Real(0);
-                turning_.at(bits, axis) = bits & turns ? surface : Real(0);
-                if (Dim == 2) moving_.at(bits, 2) = turning_.at(bits, 0);
+                rotating_.at(bits, axis) = bits & rotation_bit ? surface : Real(0);
+                if (Dim == 2) moving_.at(bits, 2) = rotating_.at(bits, 0);
             }
         radius_.resize(n);
         mass_.resize(n + padding_particles, Real(1));
@@ -101,7 +103,7 @@ public:
             inverse_mass_[k] = Real(1) / mass_[k];
             fix(k, {});
         }
-        // Two particles that no real one ever meets: the partners that fill the last pack of a row of pairs.
+        // The padding particles: pairs of them fill the last pack of a row of pairs.
         for (std::size_t g = 0; g < padding_particles; ++g) {
             body_.at(n + g, 0) = Real(g);
             body_.at(n + g, 3) = body_.at(n + g, motion + 3) = Real(0.25);
@@ -118,12 +120,13 @@ public:
             body_.at(size() + g, 3) = body_.at(size() + g, motion + 3) = padding_distance_ / 4;
         }
     }
-    /// Of the space; all zero where it is open.
+    /// The periods of the space; 0 along open axes.
     periods<Real, Dim> const& period() const noexcept { return periods_; }
-    /// The way from one particle to another, given as the difference of their places, or to its image that is nearest.
+    /// The shortest vector from one particle to another or to an image of it, m.
+    /// \param between the difference of their positions, m
     template <class T>
-    vec<T, Dim> nearest(vec<T, Dim> const& way) const noexcept {
-        return periods_.any() ? periods_.shortest(way) : way;
+    vec<T, Dim> nearest(vec<T, Dim> const& between) const noexcept {
+        return periods_.any() ? periods_.shortest(between) : between;
     }
 
     std::size_t size() const noexcept { return id_.size(); }
@@ -146,7 +149,7 @@ public:
         return Real(inertia_share_ * double(mass_[k]) * double(radius_[k]) * double(radius_[k]));
     }
     int material(std::size_t k) const noexcept { return material_[k]; }
-    /// Eq. 8's unit vector e (2D).
+    /// The unit vector e of the paper's eq. 8 (2D).
     vec<Real, 2> orientation(std::size_t k) const noexcept
         requires(Dim == 2)
     {
@@ -159,7 +162,7 @@ public:
     {
         return {quaternion_.at(k, 0), quaternion_.at(k, 1), quaternion_.at(k, 2), quaternion_.at(k, 3)};
     }
-    /// Force applied from outside, N.
+    /// External force, N.
     point applied_force(std::size_t k) const noexcept {
         point r{};
         for (int axis = 0; axis < Dim; ++axis) r[axis] = load(k)[axis];
@@ -174,31 +177,31 @@ public:
         else
             set_head(surface_speed_, k, w * radius_[k]);
     }
-    void set_applied_force(std::size_t k, point const& force) { set_head(load_, place_of_load(k), force); }
+    void set_applied_force(std::size_t k, point const& force) { set_head(load_, load_index(k), force); }
     void set_applied_torque(std::size_t k, Real torque)
         requires(Dim == 2)
     {
-        load_.at(place_of_load(k), 2) = torque / radius_[k];
+        load_.at(load_index(k), 2) = torque / radius_[k];
     }
-    /// Torque applied from outside, N m.
+    /// Sets the external torque, N m.
     void set_applied_torque(std::size_t k, point const& torque)
         requires(Dim == 3)
     {
         if (torque_.size() == 0) torque_.resize(size());
         set_head(torque_, k, torque / radius_[k]);
     }
-    /// Prescribes the motion along the given axes: there the particle keeps the velocity it has or is given.
+    /// Prescribes the velocity along the given axes: the particle keeps its current velocity, or one that is set later.
     void fix(std::size_t k, fixed_axes const& axes) noexcept {
         unsigned const held = (axes.x ? 1u : 0u) | (axes.y ? 2u : 0u) | (Dim == 3 && axes.z ? 4u : 0u) |
-                              (axes.rotation ? turns : 0u);
+                              (axes.rotation ? rotation_bit : 0u);
         free_[k] = std::uint8_t(~held & (free_patterns - 1));
     }
-    /// Inverse of mass along `axis` (0 where fixed), of the moment of inertia for axis == Dim; in 1/kg, 1/(kg m^2).
+    /// Inverse mass along `axis`, 1/kg; for axis == Dim the inverse moment of inertia, 1/(kg m^2). 0 where fixed.
     Real mobility(std::size_t k, int axis) const noexcept {
-        bool const moves = axis < Dim ? free_[k] >> axis & 1 : (free_[k] & turns) != 0;
+        bool const moves = axis < Dim ? free_[k] >> axis & 1 : (free_[k] & rotation_bit) != 0;
         return moves ? Real(1) / (axis < Dim ? mass_[k] : moment_of_inertia(k)) : Real(0);
     }
-    bool held(std::size_t k, int axis) const noexcept { return !(free_[k] >> axis & 1); } ///< along `axis`, by fix()
+    bool held(std::size_t k, int axis) const noexcept { return !(free_[k] >> axis & 1); } ///< fixed along `axis`
     /// \}
 
     /// \name All particles
@@ -210,41 +213,41 @@ public:
     record_column<Real>& surface_speeds() noexcept { return surface_speed_; }
     record_column<Real> const& surface_speeds() const noexcept { return surface_speed_; }
     record_column<Real>& quaternions() noexcept { return quaternion_; }
-    /// Where the loads of the block of load_block particles that begins with `first` are, a record each; nullptr while
-    /// none of them has been given one.
+    /// The loads of the block of load_block particles that begins with `first`, one record each; nullptr if none of
+    /// them has a load.
     Real const* loads_of(std::size_t first) const noexcept {
         auto const at = loads_at_[first / load_block];
         return at < 0 ? nullptr : load_.data() + load_.stride * load_block * std::size_t(at);
     }
-    /// Force applied from outside, N, in 2D with the torque over the radius as third number.
+    /// External force, N; in 2D the third number is the external torque over the radius.
     rec load(std::size_t k) const noexcept {
         Real const* loads = loads_of(k / load_block * load_block);
         return loads ? rec::load(loads + load_.stride * (k % load_block)) : rec(Real(0));
     }
-    /// From a force record to accelerations, 1/kg: 1/m along the free axes, in 2D r^2 / I for the third number.
+    /// Factors from a force record to accelerations, 1/kg: 1/m along free axes, in 2D r^2 / I for the third number.
     rec inverse_mass(std::size_t k) const noexcept { return moving_[free_[k]] * rec(inverse_mass_[k]); }
-    /// Inverse masses, whether free or not, 1/kg.
+    /// Inverse masses, also of fixed particles, 1/kg.
     Real const* inverse_masses() const noexcept { return inverse_mass_.data(); }
-    /// 3D: from torque over radius to acceleration of the surface, r^2 / I, 1/kg.
-    rec inverse_rotary(std::size_t k) const noexcept { return turning_[free_[k]] * rec(inverse_mass_[k]); }
-    /// 3D: torques from outside over radius, N; empty while there are none. In 2D lane 2 of load().
+    /// 3D: factors from torque over radius to the acceleration of the surface, r^2 / I, 1/kg.
+    rec inverse_rotary(std::size_t k) const noexcept { return rotating_[free_[k]] * rec(inverse_mass_[k]); }
+    /// 3D: external torques over radius, N; empty if there are none. In 2D they are lane 2 of load().
     record_column<Real> const& torques() const noexcept { return torque_; }
-    /// Masses, those of the padding_particles included, kg.
+    /// Masses, including those of the padding particles, kg.
     Real const* masses() const noexcept { return mass_.data(); }
-    /// Internal index of the two partners that fill incomplete packs of pairs.
+    /// Internal index of a padding particle, `which` = 0 or 1. Pairs of them fill incomplete packs.
     std::int32_t padding_particle(int which) const noexcept { return std::int32_t(size()) + which; }
-    /// How far they are from each other, m.
+    /// Distance of the padding particles, m.
     Real padding_distance() const noexcept { return padding_distance_; }
     template <class Archive>
     void serialize(Archive& ar) {
         ar(body_, surface_speed_, quaternion_, fixed_length{free_}, fixed_length{loads_at_});
         auto const blocks = std::int32_t(std::count_if(loads_at_.begin(), loads_at_.end(), [](auto at) { return at >= 0; }));
-        for (auto const at : loads_at_) require_state(at >= -1 && at < blocks, "where its loads are");
+        for (auto const at : loads_at_) require_state(at >= -1 && at < blocks, "the index of a block of loads");
         load_.resize(load_block * std::size_t(blocks));
         ar(load_);
-        bool turned = torque_.size() > 0;
-        ar(turned);
-        if (turned) {
+        bool has_torques = torque_.size() > 0;
+        ar(has_torques);
+        if (has_torques) {
             torque_.resize(size());
             ar(torque_);
         }
@@ -257,11 +260,11 @@ public:
 private:
     static constexpr std::size_t padding_particles = 2;
     /// Bits of free_: the axes, then the rotation.
-    static constexpr unsigned turns = 1u << Dim, free_patterns = 2u << Dim;
+    static constexpr unsigned rotation_bit = 1u << Dim, free_patterns = 2u << Dim;
     static constexpr double min_normal() { return double(std::numeric_limits<Real>::min()); }
     static rec unit_quaternion() { return rec(typename rec::native{Real(1), Real(0), Real(0), Real(0)}); }
-    /// Where the load of a particle is in load_, for which there is room from now on.
-    std::size_t place_of_load(std::size_t k) {
+    /// Index in load_ of a particle's load; makes room for it first.
+    std::size_t load_index(std::size_t k) {
         auto& at = loads_at_[k / load_block];
         if (at < 0) {
             at = std::int32_t(load_.size() / load_block);
@@ -269,7 +272,7 @@ private:
         }
         return load_block * std::size_t(at) + k % load_block;
     }
-    /// Where the velocity begins in an entry of body_.
+    /// Index of the first velocity component in an entry of body_.
     static constexpr int motion = 4;
     template <class Column>
     static point head(Column const& column, std::size_t k, int first = 0) noexcept {
@@ -287,12 +290,12 @@ private:
     std::vector<std::int32_t> id_, internal_;
     std::vector<int> material_;
     std::vector<Real> radius_, mass_, inverse_mass_;
-    double inertia_share_ = 0.4; // of mass times radius squared
+    double inertia_share_ = 0.4; // moment of inertia over mass times radius squared
     std::vector<std::uint8_t> free_;
-    std::vector<std::int32_t> loads_at_; // of blocks of load_block particles: which block of load_; -1: none
-    /// Which components of a force, and of a torque over radius, move a particle: a record for each pattern of free_.
-    record_column<Real> moving_ = record_column<Real>(free_patterns), turning_ = record_column<Real>(free_patterns);
-    body_column<Real> body_; // places and velocities
+    std::vector<std::int32_t> loads_at_; // for each block of load_block particles its block of load_; -1: none
+    /// For each pattern of free_ the components of a force, and of a torque over radius, that move a particle.
+    record_column<Real> moving_ = record_column<Real>(free_patterns), rotating_ = record_column<Real>(free_patterns);
+    body_column<Real> body_; // positions and velocities
     record_column<Real> surface_speed_, quaternion_, load_, torque_;
 };
 
