@@ -5,7 +5,7 @@
 
 namespace lacuna {
 
-/// Looks at every pair: no set-up, cost n^2. For a few hundred particles, and as the reference for the others.
+/// Checks every pair: cost n^2, no set-up. It suits a few hundred particles, and tests of the other searches.
 template <class Real, int Dim>
 class brute_force {
 public:

@@ -9,14 +9,13 @@
 
 namespace lacuna {
 
-/// Search by cells, the default: cost and memory are proportional to the number of particles, whatever their
-/// extent.
+/// Search by cells, the default: cost and memory are proportional to the number of particles, whatever their extent.
 ///
-/// Particles are put into cells that are as wide as two of them reach (counting sort), so that the partners of
-/// one lie in the cells around its own. Radii that differ much get a grid for each factor of two in which there are
-/// any, around the particles of that size alone: a huge particle makes no one else's cells wider, nor their grid larger.
-/// Where the box around them would take far more cells than there are particles (one has flown away), rows of
-/// cells share a table by their hash. Buffers are kept: a call of the same size allocates nothing.
+/// A counting sort puts particles into cells as wide as the reach of two of them, so that the partners of a particle
+/// are in its own cell and the adjacent ones. There is a grid for each factor of two of the reach that occurs. It
+/// covers the particles of that size alone, so that a huge particle makes neither the cells nor the grids of others
+/// larger. If a grid would have far more cells than particles (one has flown away), rows of cells share a table by
+/// their hash. Buffers are reused: a call of the same size allocates nothing.
 template <class Real, int Dim>
 class cell_grid {
     static_assert(Dim == 2 || Dim == 3);
@@ -69,7 +68,7 @@ private:
         row_.resize(any_hashed ? n : 0);
         row_of_.resize(any_hashed ? n : 0);
 
-        // Counted one place ahead, each cell's start moves on to its end, the next one's start, while it fills.
+        // Counts are stored one index ahead: while a cell fills, its start moves to its end, the start of the next.
         starts_.assign(levels_.back().base + levels_.back().cells + 2, 0);
         for (std::size_t i = 0; i < n; ++i) {
             level const& grid = levels_[levels_.size() == 1 ? 0 : level_number_[level_of(radii[i])]];
@@ -93,7 +92,7 @@ private:
         }
     }
 
-    /// Factors of two by which a particle's reach is smaller than the largest one; the last level holds all below, too.
+    /// Factors of two between the largest reach and a particle's. The last level also has all smaller reaches.
     std::size_t level_of(Real radius) const noexcept {
         Real const reach = radius + margin_ / 2;
         if (reach > largest_reach_ / 2 || !(reach > 0)) return reach > 0 || !(largest_reach_ > 0) ? 0 : max_levels - 1;
@@ -106,7 +105,7 @@ private:
         std::array<level, max_levels> grids;
         for (std::size_t i = 0; i < points.size(); ++i) {
             Real const radius = radii.empty() ? Real(0) : radii[i];
-            grids[level_of(radius)].take(points[i], radius + margin_ / 2);
+            grids[level_of(radius)].add(points[i], radius + margin_ / 2);
         }
         std::size_t base = 0;
         for (std::size_t l = 0; l < max_levels; ++l) {
@@ -123,7 +122,7 @@ private:
         }
     }
 
-    /// A width for points that only touch where they coincide: about one per cell.
+    /// Width of cells for points without extent, which touch only if they coincide: about one point per cell.
     static Real width_of_points(vec<Real, Dim> const& low, vec<Real, Dim> const& high, std::size_t count) {
         Real extent = 0;
         for (int axis = 0; axis < Dim; ++axis) extent = std::max(extent, high[axis] - low[axis]);
@@ -137,7 +136,7 @@ private:
         for (int axis = 0; axis < Dim; ++axis) {
             double const last = std::floor((grid.high[axis] - grid.low[axis]) * grid.cells_per_length);
             cells *= last + 1;
-            // Beyond 2^23 a float cannot tell one cell from the next.
+            // Beyond 2^23 a float cannot distinguish adjacent cells.
             if (!(cells <= most) || last > 8e6) {
                 hash(grid, points);
                 return;
@@ -154,8 +153,7 @@ private:
         grid.hashed = true;
         grid.cells = std::bit_ceil(2 * grid.count);
         for (int axis = 0; axis < Dim; ++axis) {
-            // Cells are counted from where most particles are: a float has too few digits to count them from
-            // one that has flown away.
+            // The origin is a sample's median: a float has too few digits to count cells from one that has flown away.
             std::array<Real, 63> sample;
             std::size_t const taken = std::min(sample.size(), points.size());
             for (std::size_t k = 0; k < taken; ++k) sample[k] = points(k * points.size() / taken, axis);
@@ -167,7 +165,7 @@ private:
         }
     }
 
-    /// Writes the pairs whose first particle is in [first, last) to `out`, which grows as needed; returns their number.
+    /// Writes the pairs whose first particle is in [first, last) to `out`, which may grow. Returns their number.
     std::size_t pairs_of(std::size_t first, std::size_t last, std::vector<neighbor_pair>& out) const {
         std::size_t found = 0;
         for (std::size_t i = first; i < last; ++i) {
@@ -195,7 +193,7 @@ private:
         if (levels_.size() > 1 && grid.away(x, reach)) return found;
         auto const width = std::size_t(high[0] - low[0]) + 1;
         if constexpr (Hashed) {
-            // Wider than the whole table: a huge particle among small ones.
+            // A huge particle among small ones reaches more cells than the table has.
             double rows = double(high[1] - low[1]) + 1;
             if constexpr (Dim == 3) rows *= double(high[2] - low[2]) + 1;
             if (rows * double(width) > double(grid.cells)) return scan<false>(grid.base, grid.cells, i, own, x, 0, found, out);
@@ -235,10 +233,10 @@ private:
             Real d2 = 0;
             for (int axis = 0; axis < Dim; ++axis)
                 d2 = detail::add_square(d2, x[axis] - position_[std::size_t(axis)][s]);
-            // Written in any case and counted if it is a pair: a branch here would be mispredicted.
+            // Always written, but counted only if it is a pair: a branch here would be mispredicted.
             to[found] = {self, index_[s]};
             unsigned hit = unsigned(index_[s] > self) & unsigned(detail::in_reach(d2, radius, radius_[s], margin_));
-            // Rows that share cells of the table would give their pairs twice.
+            // Rows that share cells of the table would otherwise give their pairs twice.
             if constexpr (Hashed) hit &= unsigned(row_[s] == row);
             found += hit;
         }
@@ -251,7 +249,7 @@ private:
     Real largest_reach_ = 0;
     int threads_ = 1;
     std::vector<std::vector<neighbor_pair>> parts_;
-    // By slot: the particles in the order of their cells, and by their number in that cell.
+    // By slot: particles in the order of their cells, and within a cell by their index.
     std::array<std::vector<Real>, std::size_t(Dim)> position_;
     std::vector<Real> radius_;
     std::vector<std::int32_t> index_;

@@ -11,13 +11,14 @@
 
 namespace lacuna {
 
-/// The particles that have moved far since a neighbour list was built, to be looked at two by two.
+/// The particles that have moved far since a neighbour list was built. Their pairs are checked one by one.
 template <class Real, int Dim>
 class fast_particles {
 public:
     using point = vec<Real, Dim>;
 
-    /// \param particles in all
+    /// Removes all.
+    /// \param particles number of all particles
     void clear(std::size_t particles) {
         fast_.clear();
         most_ = 64 + particles / 16;
@@ -26,13 +27,14 @@ public:
     void add(std::size_t i) {
         if (!too_many()) fast_.push_back(std::int32_t(i));
     }
-    /// Where many move there is nothing to gain.
+    /// True if so many particles move far that checking their pairs does not pay.
     bool too_many() const noexcept { return fast_.size() > most_; }
 
-    /// How much two of them have come closer, at most, that were not listed, m; at least `start`.
-    /// \param reference where they were
+    /// The largest approach of two of them that are not listed as a pair, m; at least `start`.
+    /// \param points current positions, m
+    /// \param reference positions when the list was built, m
     /// \param listed gap up to which pairs were listed, m
-    /// \param near distance beyond which two had no chance to meet, m
+    /// \param near distance at that time beyond which two particles cannot have met since, m
     Real largest_approach(Real start, points_view<Real, Dim> const& points, std::vector<point> const& reference,
                           std::span<Real const> radii, Real listed, Real near) {
         auto const was = [&](std::size_t k) { return reference[std::size_t(fast_[k])]; };

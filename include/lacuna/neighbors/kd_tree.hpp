@@ -27,9 +27,10 @@ struct tree_points {
     }
 };
 
-/// Takes what the tree finds around one point: the pairs of which it is the larger particle (of equal ones the first), so that
-/// no particle has to look as far as the largest of all could reach it. The members are all that nanoflann asks of a result set, in
-/// version 1.4 and in those from 1.5 on, which have other search parameters and result types of their own.
+/// Receives the points that the tree finds around point i. It takes the pairs in which i is the larger particle (of
+/// equal ones the first), so that no particle has to search as far as the largest one reaches. The members are those
+/// that nanoflann requires of a result set, in version 1.4 as well as from 1.5 on, where search parameters and result
+/// types differ.
 template <class Real, int Dim>
 class tree_row {
 public:
@@ -39,7 +40,7 @@ public:
     tree_row(tree_points<Real, Dim> const& points, std::size_t i, std::vector<neighbor_pair>& out)
         : points_(points), i_(i), out_(out) {
         Real const reach = (points.radii[i] + points.radii[i]) + points.margin;
-        // The tree looks for strictly less, its path sums round, and a square may underflow.
+        // Larger than the limit: the tree finds only smaller distances, rounds its sums, and a square may underflow.
         Real const squared = reach * reach * (1 + rounding_slack<Real>);
         worst_ = std::nextafter(std::max(squared, std::numeric_limits<Real>::min()), std::numeric_limits<Real>::max());
     }
@@ -75,8 +76,8 @@ private:
 
 /// Search by the k-d tree of nanoflann (1.4 or newer): cost n log n for any distribution of the points.
 ///
-/// A particle looks only as far as one of its own size could reach it: a huge one costs the others nothing.
-/// The tree takes its nodes from the heap at each build; all else is kept from call to call.
+/// A particle searches only as far as one of its own size reaches it, so that a huge particle does not slow the others.
+/// Each build allocates the nodes of the tree; all other memory is reused.
 template <class Real, int Dim>
 class kd_tree {
     using points_type = detail::tree_points<Real, Dim>;
@@ -124,8 +125,8 @@ public:
         std::sort(out.begin(), out.end(),
                   [](neighbor_pair const& a, neighbor_pair const& b) { return a.i < b.i || (a.i == b.i && a.j < b.j); });
     }
-    /// The number of pairs beyond which pairs() and touching_pairs() throw std::length_error, before there is no memory
-    /// left for them; at first there is none.
+    /// Sets the largest number of pairs. Beyond it, pairs() and touching_pairs() throw std::length_error, so that pairs
+    /// do not exhaust the memory. By default there is no limit.
     void set_most_pairs(std::size_t most) noexcept { most_pairs_ = most; }
     void touching_pairs(points_view<Real, Dim> const& points, std::span<Real const> radii, Real margin,
                         std::vector<neighbor_pair>& out) {
@@ -150,7 +151,7 @@ private:
         if (!points_->radii.empty()) index_ = std::make_unique<index_type>(Dim, *points_);
     }
 
-    // The index refers to the points, so that both live on the heap and survive a move of the search.
+    // The index refers to the points: on the heap, both keep their address when the search is moved.
     std::unique_ptr<points_type> points_;
     std::unique_ptr<index_type> index_;
     std::size_t most_pairs_ = std::numeric_limits<std::size_t>::max();

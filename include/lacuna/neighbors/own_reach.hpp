@@ -11,8 +11,7 @@
 
 namespace lacuna {
 
-/// The radius that half of the particles do not exceed, m; 0 without particles. One that is far larger or smaller than
-/// all others does not change it.
+/// The median radius, m; 0 without particles. A single very large or small particle does not change it.
 template <class Real>
 Real median_radius(std::span<Real const> radii) {
     if (radii.empty()) return Real(0);
@@ -22,20 +21,21 @@ Real median_radius(std::span<Real const> radii) {
     return *middle;
 }
 
-/// How far each particle may move before a neighbour list is due, m: half a skin, and more for the few that are much faster
-/// than the others, so that these do not make it due for all.
+/// The distance that each particle may move before a neighbour list must be rebuilt, m. It is half a skin, and more for
+/// a few particles that are much faster than the others, so that these do not force rebuilds for all.
 template <class Real, int Dim>
 class own_reach {
 public:
-    /// All have half a skin.
+    /// Sets the reach of all particles to half a skin, m.
     void reset(std::size_t particles, Real half) {
         half_ = half;
         own_.assign(particles, half);
     }
-    /// Chooses by how far the particles came while the last list lasted.
-    /// \param before where they were then; another number of them: nothing is known of their motion
+    /// Chooses the reaches from the displacements of the particles during the life of the last list.
+    /// \param points current positions, m
+    /// \param before positions when the last list was built, m; ignored if their number differs
     /// \param half half a skin, m
-    /// \param room most that one may be given, m
+    /// \param room largest reach that a particle may get, m
     void choose(points_view<Real, Dim> const& points, std::vector<vec<Real, Dim>> const& before,
                 std::span<Real const> radii, Real half, Real room) {
         reset(points.size(), half);
@@ -55,7 +55,7 @@ public:
         std::size_t count = 0;
         for (Real const d2 : moved_) count += d2 > fast * fast;
         if (count == 0 || count > few) return;
-        // All of them together get as many candidates as a small share of the particles have.
+        // Together the fast particles get at most as many candidates as 1/32 of all particles, or 32.
         Real const share = std::max(Real(32), Real(points.size()) / 32) / Real(count);
         for (std::size_t i = 0; i < points.size(); ++i) {
             if (!(moved_[i] > fast * fast)) continue;
@@ -66,7 +66,7 @@ public:
     }
 
     Real operator[](std::size_t i) const noexcept { return own_[i]; }
-    /// Whether a particle has half a skin, as almost all do. To the others half of that is given in addition.
+    /// True if a particle's reach is half a skin, as for almost all. Any other reach is at least 1.5 times as large.
     bool ordinary(std::size_t i) const noexcept { return own_[i] == half_; }
 
     template <class Archive>
@@ -76,7 +76,7 @@ public:
     std::size_t size() const noexcept { return own_.size(); }
 
 private:
-    /// Within what distance of a particle's surface there are about so many others of a typical radius.
+    /// The distance from a particle's surface within which there are about `count` particles of the typical radius, m.
     static Real within(Real count, Real radius, Real typical) noexcept {
         Real const n = radius / typical;
         Real const filled = Dim == 2 ? std::sqrt(count + n * n) : std::cbrt(count + n * n * n);

@@ -12,10 +12,10 @@
 
 namespace lacuna {
 
-/// A search in a domain that repeats itself: any other search, given the images of particles near an end as well.
+/// A search in a periodic domain. It passes particles and the images of those near an end to another search.
 ///
-/// Distances are those of the shortest way. The list may hold, besides, pairs a rounding of the period beyond the limit:
-/// an image's place is rounded.
+/// Distances are the shortest between any images. The list may also contain pairs beyond the limit by a rounding of the
+/// period, because the position of an image is rounded.
 template <neighbor_search Search>
 class periodic_search {
 public:
@@ -29,7 +29,8 @@ public:
         if constexpr (requires { search_.set_threads(threads); }) search_.set_threads(threads);
     }
 
-    /// As neighbor_search says. \throws std::invalid_argument also for a period below twice the reach, where two images could be in reach
+    /// See neighbor_search.
+    /// \throws std::invalid_argument also for a period below twice the reach, where two images could be in reach
     void build(points_view<real_type, dim> const& points, real_type cutoff) {
         detail::require_finite_points(points);
         detail::require_length("cutoff", cutoff);
@@ -50,11 +51,11 @@ public:
     }
 
 private:
-    /// How far the images of particles reach, and which of them are large: those that stand out, whose images are made at
-    /// both ends, so that those of all others, at one, need not be made as far as a large one reaches.
+    /// Distances within which particles meet. Exceptionally large particles get images at both ends. So all others need
+    /// images at one end only, and only within the reach of two usual particles.
     struct reaches {
-        real_type usual, pair; ///< of two that do not stand out; of the two largest, m
-        real_type large;       ///< radius beyond which one stands out, m
+        real_type usual, pair; ///< of two usual particles; of the two largest, m
+        real_type large;       ///< radius beyond which a particle is exceptionally large, m
     };
     static reaches reaches_of(std::span<real_type const> radii, real_type margin) {
         real_type first = 0, second = 0, usual = 0, large = 2 * median_radius(radii);
@@ -65,8 +66,8 @@ private:
         }
         return {2 * usual + margin, first + second + margin, large};
     }
-    /// The points, brought into one period, and of those near its lower end an image beyond the upper one; of large ones
-    /// near the upper end one beyond the lower, too.
+    /// Wraps the points into one period and adds an image beyond the upper end for each point near the lower end. A
+    /// large particle near the upper end also gets an image beyond the lower end.
     void add_images(points_view<real_type, dim> const& points, std::span<real_type const> radii, real_type margin) {
         points_.resize(points.size());
         of_.resize(points.size());
@@ -82,9 +83,9 @@ private:
             if (!(length >= 2 * reach.pair))
                 refuse("period", double(length), "at least twice the distance at which particles meet, " + to_text(double(2 * reach.pair)));
             for (auto& x : points_) x[axis] -= length * std::floor(x[axis] / length);
-            // Images of the axes before are copied too: corners have theirs.
-            std::size_t const here = points_.size();
-            for (std::size_t k = 0; k < here; ++k) {
+            // Includes the images along earlier axes: they give the images at corners.
+            std::size_t const present = points_.size();
+            for (std::size_t k = 0; k < present; ++k) {
                 bool const large = !radii.empty() && radii_[k] > reach.large;
                 real_type const own = (large ? 2 * radii_[k] + margin : reach.usual) + slack();
                 if (points_[k][axis] <= own) add_image(k, axis, length);
@@ -99,7 +100,7 @@ private:
         of_.push_back(of_[k]);
         if (!radii_.empty()) radii_.push_back(real_type(radii_[k]));
     }
-    /// What the rounding of an image's place can add to a distance.
+    /// The error of a distance due to the rounding of an image's position, m.
     real_type slack() const noexcept {
         real_type longest = 0;
         for (int axis = 0; axis < dim; ++axis) longest = std::max(longest, period_[axis]);

@@ -16,12 +16,12 @@
 #include <lacuna/core/points.hpp>
 
 /// \file
-/// What every neighbour search gives and takes. All searches return the same list, bit for bit, for the same
-/// input: they share one comparison, and every list is sorted.
+/// The interface of neighbour searches. All searches return the same list, bit for bit, for the same input: they share
+/// one comparison, and every list is sorted.
 
 namespace lacuna {
 
-/// Two particles that are close to each other, by their numbers in the input; i < j.
+/// Indices in the input of two particles that are close to each other; i < j.
 struct neighbor_pair {
     std::int32_t i;
     std::int32_t j;
@@ -44,23 +44,23 @@ concept search_touching_pairs =
     };
 } // namespace detail
 
-/// A neighbour search, the slot filled by brute_force, kd_tree and cell_grid.
+/// Requirements on a neighbour search, such as brute_force, kd_tree and cell_grid.
 ///
 /// * `build(points, cutoff)`, then `pairs(out)`: all pairs whose centres are at most `cutoff` apart [m].
 /// * `touching_pairs(points, radii, margin, out)`: all pairs with distance <= r_i + r_j + margin [m].
 ///
-/// Limits are inclusive, each pair comes once, the list is sorted by (i, j), its earlier content is replaced.
-/// A search copies what it is given to build from. The calls throw std::invalid_argument for a position that
-/// is not finite and a radius that is negative or not finite (naming the particle), for a negative cutoff or
-/// margin, for a limit whose square overflows, and when there is not one radius per point.
+/// Limits are inclusive. Each pair occurs once, the list is sorted by (i, j), and it replaces the content of `out`. A
+/// search copies its input. The calls throw std::invalid_argument for a position that is not finite and a radius that
+/// is negative or not finite (naming the particle), for a negative cutoff or margin, for a limit whose square
+/// overflows, and unless there is one radius per point.
 template <class S>
 concept neighbor_search = std::default_initializable<S> && std::copyable<S> && detail::search_types<S> &&
     detail::search_build<S> && detail::search_pairs<S> && detail::search_touching_pairs<S>;
 
 namespace detail {
 
-/// Sum of squares whose rounding is the same wherever it is inlined: where the processor has a fused
-/// multiply-add the compiler may contract a product and a sum in either order, so the order is spelled out.
+/// Returns sum + d^2 with the same rounding wherever it is inlined. If the processor has a fused multiply-add, the
+/// compiler may contract products and sums differently in different places; std::fma fixes one way.
 template <class Real>
 inline Real add_square(Real sum, Real d) noexcept {
 #if defined(__FMA__) || defined(__FP_FAST_FMA) || defined(__aarch64__)
@@ -70,14 +70,14 @@ inline Real add_square(Real sum, Real d) noexcept {
 #endif
 }
 
-/// Whether points at squared distance d2 are a pair; the one comparison that all searches use.
+/// True if points at squared distance d2 are a pair. All searches use this comparison.
 template <class Real>
 inline bool in_reach(Real d2, Real radius_i, Real radius_j, Real margin) noexcept {
     Real const limit = (radius_i + radius_j) + margin;
     return d2 <= limit * limit;
 }
 
-/// Relative allowance that covers the rounding of a distance, a limit and the path down a tree.
+/// Relative allowance for the rounding of a distance, of a limit and of the sums in a tree.
 template <class Real>
 inline constexpr Real rounding_slack = 256 * std::numeric_limits<Real>::epsilon();
 
@@ -100,7 +100,7 @@ void require_length(char const* field, Real value) {
     if (!std::isfinite(value * value)) refuse(field, double(value), "small enough for its square to be finite");
 }
 
-/// Checks the input of touching_pairs; returns the largest radius, 0 when there is none.
+/// Checks the input of touching_pairs. Returns the largest radius, 0 without particles.
 template <class Real>
 Real require_radii(std::span<Real const> radii, std::size_t count, Real margin) {
     if (radii.size() != count)
@@ -116,7 +116,7 @@ Real require_radii(std::span<Real const> radii, std::size_t count, Real margin) 
     return largest;
 }
 
-/// Sorts the pairs of one i by j. Rows are short; long ones come from degenerate input.
+/// Sorts the pairs of one i by j. Rows are short except for degenerate input.
 inline void sort_row(neighbor_pair* first, neighbor_pair* last) {
     auto const before = [](neighbor_pair const& a, neighbor_pair const& b) { return a.j < b.j; };
     if (last - first > 32) {
@@ -131,9 +131,10 @@ inline void sort_row(neighbor_pair* first, neighbor_pair* last) {
     }
 }
 
-/// Collects what `pairs_of(first, last, part)` finds for ranges of `count` particles, a thread each, in their order.
-/// \param pairs_of writes to `part`, which it lets grow, and returns how many pairs it has found
-/// \param parts buffers, kept by the caller
+/// Calls `pairs_of(first, last, part)` for one range of the `count` particles per thread. Joins the pairs in the order
+/// of the ranges.
+/// \param pairs_of writes the pairs to `part`, which it may enlarge, and returns their number
+/// \param parts buffers, which the caller stores for the next call
 template <class PairsOf>
 void join_pairs(std::size_t count, int threads, std::vector<std::vector<neighbor_pair>>& parts,
                 std::vector<neighbor_pair>& out, PairsOf const& pairs_of) {
