@@ -123,7 +123,7 @@ TEST_CASE("a force is kept until the last of its particles has met all its pores
                     at[0] = double(p);
                     at[1] = double(c);
                 }
-            f.write_met(r, sum);
+            f.write_complete(r, sum);
             for (std::size_t k = 0; k < 1000; ++k) {
                 std::size_t const group_end = std::min<std::size_t>(k / 32 * 32 + 32, 1000);
                 bool const met = std::min<std::size_t>(group_end - 1, 997) < std::min<std::size_t>((r + 1) * run, 998);

@@ -86,7 +86,7 @@ TEST_CASE("explicit flow of more steps than can be made is refused, not called f
     here.write("case.toml", deck(body, motion::coupled, "conductivity = 1e12\nmerge_conductance = 1e30\n"));
     auto const ran = here.run("--quiet case.toml");
     require_refused(ran, here);
-    CHECK_THAT(ran.err, contains_text("time_step = 0.001 s: must be at most ") && contains_text("100000 explicit steps of the fluid"));
+    CHECK_THAT(ran.err, contains_text("time_step = 0.001 s: must be at most ") && contains_text("100000 substeps of explicit flow"));
 }
 
 TEST_CASE("a run whose throats open too far for explicit flow ends marked, with what it has told", "[fluid][program]") {

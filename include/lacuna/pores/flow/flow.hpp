@@ -50,15 +50,16 @@ concept flow_network = requires(Solver const& view) {
 template <class Solver>
 concept flow_map_throats = requires(Solver& solver) { solver.map_throats(any_pair_lookup{}); };
 template <class Solver, class Real>
-concept flow_refresh_apertures = requires(Solver& solver, body_column<Real> const& place, Real const* normal_forces) {
-    solver.refresh_apertures(place, normal_forces);
+concept flow_refresh_apertures = requires(Solver& solver, body_column<Real> const& particles,
+                                          Real const* normal_forces) {
+    solver.refresh_apertures(particles, normal_forces);
 };
 template <class Solver>
 concept flow_deactivate_slow_throats = requires(Solver& solver) { solver.deactivate_slow_throats(); };
 template <class Solver, class Real, bool WithLedger>
-concept flow_step = requires(Solver& solver, body_column<Real> const& place, Real const* normal_forces, Real dt,
+concept flow_step = requires(Solver& solver, body_column<Real> const& particles, Real const* normal_forces, Real dt,
                              record_column<Real>* out) {
-    solver.template step<WithLedger>(place, normal_forces, dt, 1, out);
+    solver.template step<WithLedger>(particles, normal_forces, dt, 1, out);
 };
 template <class Solver>
 concept flow_time_step = requires(Solver const& view) {
@@ -66,7 +67,9 @@ concept flow_time_step = requires(Solver const& view) {
 };
 template <class Solver, class Real, int Dim>
 concept flow_tractions = requires(Solver const& view, points_view<Real, Dim> points, Real const* radii) {
-    { view.pore_tractions(std::size_t(0), points, radii) } -> std::convertible_to<std::array<vec<Real, Dim>, std::size_t(Dim) + 1>>;
+    {
+        view.pore_tractions(std::size_t(0), points, radii)
+        } -> std::convertible_to<std::array<vec<Real, Dim>, std::size_t(Dim) + 1>>;
 };
 template <class Solver, class Real>
 concept flow_energies = requires(Solver const& view) {
@@ -92,30 +95,32 @@ concept flow_solver = flow_settings<Solver> && flow_network<Solver, Real, Dim> &
     flow_energies<Solver, Real> && flow_restore<Solver, Real, Dim> && flow_serialize<Solver>;
 } // namespace detail
 
-/// A flow solver of a model, the slot filled by explicit_flow, implicit_flow and no_flow. The policy has
+/// Requirements on the flow policy of a model, such as explicit_flow, implicit_flow and no_flow. The policy has
 ///   - `parameters`: an aggregate with defaults and `validate(std::string const& name)`;
-///   - `solver<Real, Dim>`: copyable, made from (parameters, network, thickness, points, radii).
+///   - `solver<Real, Dim>`: copyable, constructed from (parameters, network, thickness, points, radii).
 ///
-/// A solver of a fluid has
-///   - `settings()`, its parameters, with `interval` (in one of so many steps fluid flows, for the time of all),
-///     `bulk_modulus` and, of remeshing, `minimum_pressure`, Pa, and `minimum_volume_fraction`, 1;
-///   - `network()`: the pores and throats in their present state;
-///   - `step<WithLedger>(bodies, normal_forces, dt, threads, tractions)`: called once per step, writes what the pores exert
-///     on the particles. A step of 0 s lets pressures follow the volumes, and nothing flow;
-///   - `map_throats(lookup)`, called whenever the pairs' places in memory change, `refresh_apertures(bodies, normal_forces)`
-///     and `deactivate_slow_throats()`, called at the start and whenever pairs or pores have changed: all three may do nothing;
-///   - `critical_time_step()` of the flow alone, s, and `pore_tractions(pore, points, radii)`, the forces on its corners for
-///     1 Pa in it, N: the stiffness of the fluid for the bound of the time step;
-///   - `storage_energy()`, J, and `ledger()`: for the energy ledger;
-///   - `restore(network, ledger)`: goes on with another mesh; `serialize(archive)`: what a run changes (core/state.hpp).
+/// The solver has
+///   - `settings()`: its parameters. They have `interval` (fluid flows in one of so many steps, for the time of all),
+///     `bulk_modulus`, Pa, and for remeshing `minimum_pressure`, Pa, and `minimum_volume_fraction`, 1.
+///   - `network()`: the pores and throats in their present state.
+///   - `step<WithLedger>(particles, normal_forces, dt, threads, tractions)`: called once per step; writes the forces of
+///     the pores on the particles. In a step of 0 s pressures follow the volumes, and nothing flows.
+///   - `map_throats(lookup)`: called whenever the pairs are stored in another order; may do nothing.
+///   - `refresh_apertures(particles, normal_forces)` and `deactivate_slow_throats()`: called at the start and whenever
+///     pairs or pores have changed; both may do nothing.
+///   - `critical_time_step()` of the flow alone, s, and `pore_tractions(pore, points, radii)`, the forces on the pore's
+///     corners for 1 Pa in it, N. The bound of the time step gets the stiffness of the fluid from them.
+///   - `storage_energy()`, J, and `ledger()`: for the energy ledger.
+///   - `restore(network, ledger)`: continues with another mesh.
+///   - `serialize(archive)`: archives the state that a run changes (core/state.hpp).
 ///
-/// With `mean_throat_limit()` time_step_limits report it.
+/// If it has `mean_throat_limit()`, time_step_limits report it.
 template <class Policy, int Dim = 2, class Real = double>
 concept flow_policy = detail::flow_parameters_slot<Policy> &&
-    (std::same_as<Policy, no_flow> ||
-     (detail::flow_solver_slot<Policy, Real, Dim> && detail::flow_solver<typename Policy::template solver<Real, Dim>, Real, Dim>));
+    (std::same_as<Policy, no_flow> || (detail::flow_solver_slot<Policy, Real, Dim> &&
+                                       detail::flow_solver<typename Policy::template solver<Real, Dim>, Real, Dim>));
 
-/// No fluid: a dry body. Its network is empty and its steps do nothing.
+/// Flow policy of a dry packing: the network is empty, and steps do nothing.
 struct no_flow {
     struct parameters {
         void validate(std::string const&) const {}
@@ -129,9 +134,10 @@ struct no_flow {
         template <class Lookup>
         void map_throats(Lookup const&) noexcept {}
         void refresh_apertures(body_column<Real> const&, Real const*, int = 1) noexcept {}
-        /// Writes zeros.
+        /// Writes zeros to `tractions`.
         template <bool WithLedger>
-        void step(body_column<Real> const&, Real const*, Real, int = 1, record_column<Real>* tractions = nullptr) noexcept {
+        void step(body_column<Real> const&, Real const*, Real, int = 1,
+                  record_column<Real>* tractions = nullptr) noexcept {
             if (tractions) std::fill(tractions->data(), tractions->data() + 4 * tractions->size(), Real(0));
         }
         Real critical_time_step() const noexcept { return std::numeric_limits<Real>::infinity(); }

@@ -28,8 +28,8 @@
 namespace lacuna {
 
 LACUNA_BEGIN_PACKS
-/// What the flow solvers share: geometry, apertures, boundaries, tractions, balances. They differ in how the flows of a
-/// step come about.
+/// Base of the flow solvers: geometry, apertures, boundaries, tractions, balances. Derived solvers compute the flows of
+/// a step.
 template <class Real, int Dim, class Parameters>
 class flow_base {
 public:
@@ -38,21 +38,23 @@ public:
 
     network_type const& network() const noexcept { return network_; }
     parameters const& settings() const noexcept { return parameters_; }
-    /// Kept by the steps with a ledger; what the sources have brought (network().sources) is kept by all steps.
+    /// Updated by steps with a ledger. The volumes of the sources (network().sources) are updated by all steps.
     flow_ledger<Real> const& ledger() const noexcept { return ledger_; }
 
-    /// Pores that have become one.
+    /// Clusters of merged pores.
     pore_clusters<Real, Dim> const& clusters() const noexcept { return clusters_; }
 
-    /// \throws std::invalid_argument for a pore that is not there, a pressure not finite or below the minimum.
+    /// Sets the pressure of a pore, Pa.
+    /// \throws std::invalid_argument for a pore that does not exist, or a pressure not finite or below the minimum.
     void set_pressure(std::size_t pore, Real pressure) {
         if (pore >= network_.pores()) refuse("pore", double(pore), "a pore of the network");
         parameters_.require_pressure("pressure of pore " + std::to_string(pore), double(pressure));
         network_.pressure[pore] = pressure;
         told_ = true;
     }
-    /// Changes what a source prescribes from the next step on: Pa, or m^3/s.
-    /// \throws std::invalid_argument for a source that is not there, a value not finite, a pressure below the minimum.
+    /// Changes the value that a source prescribes, Pa or m^3/s, from the next step on.
+    /// \throws std::invalid_argument for a source that does not exist, a value that is not finite, or a pressure below
+    ///         the minimum.
     void set_source(std::size_t number, double value) {
         if (number >= network_.sources.size()) refuse("flow source", double(number), "a source of the network");
         auto& source = network_.sources[number];
@@ -71,37 +73,38 @@ public:
     /// Whether set_pressure() or set_source() was called.
     bool told() const noexcept { return told_; }
 
-    /// New pore volumes. The volume change that the next step sees is that since the last one. step() does it itself.
+    /// Updates the pore volumes. The next step still uses the change since the last step. step() calls it itself.
+    /// \param points centres of all particles, m; \param radii of all particles, m
     void refresh_geometry(points_view<Real, Dim> points, Real const* radii) {
         if (network_.bare()) return;
         if (!forces_.built()) set_force_retention(true);
         update_geometry(particle_records(points, radii).data(), 1);
     }
 
-    /// Tells each throat where the normal force of its pair is; to be called whenever the pairs' places in memory change.
-    /// \param lookup callable (particle i, particle j) -> place of the pair's normal force among all; 0, where no force
-    ///        is, when there is no such pair
+    /// Stores for each throat the index of its pair's normal force. Call it whenever the pairs are stored in another
+    /// order.
+    /// \param lookup callable (particle i, particle j) -> index of the pair's normal force; 0 if there is no such pair
     template <class Lookup>
     void map_throats(Lookup const& lookup) {
         if (!network_.bare()) throats_.map(network_, lookup);
     }
 
-    /// New apertures of all throats, of those that are skipped as well.
-    /// \param place records of the particles, as particle_store has them; here and below
+    /// Updates the apertures of all throats, including skipped ones.
+    /// \param particles records of all particles, as in particle_store; here and below
     /// \param normal_forces of the pairs, N, positive in tension, the first is 0; here and below
-    void refresh_apertures(body_column<Real> const& place, Real const* normal_forces, int threads = 1) noexcept {
+    void refresh_apertures(body_column<Real> const& particles, Real const* normal_forces, int threads = 1) noexcept {
         if (network_.bare()) return;
         for_each_chunk(throats_.chunks(true), threads, [&](int c) {
-            throats_.template pass<true, false, aperture_type>(c, network_, place.data(), normal_forces,
+            throats_.template pass<true, false, aperture_type>(c, network_, particles.data(), normal_forces,
                                                                parameters_.aperture);
         });
     }
 
-    /// Leaves out, from now on, the throats through which practically nothing passes within `duration` [s]: those
-    /// whose own step limit, 2 / (K_f C (1/V_1 + 1/V_2)), is more than `skip_ratio` times as long (they let at most
-    /// 2 / skip_ratio of a pressure difference through), and takes up again those that have opened. Call it after
-    /// refresh_apertures(), at the start and whenever throats may have opened.
-    /// \return how many throats are skipped
+    /// Skips, from now on, throats through which practically nothing passes within `duration` [s]. These are throats
+    /// whose own step limit, 2 / (K_f C (1/V_1 + 1/V_2)), exceeds `skip_ratio` times the duration: in that time they
+    /// equalise at most 2 / skip_ratio of a pressure difference. Throats that have opened since are used again. Call it
+    /// after refresh_apertures(), at the start and whenever throats may have opened.
+    /// \return number of skipped throats
     /// \throws std::invalid_argument for a duration that is not positive.
     std::size_t deactivate_slow_throats(Real duration) {
         if (!(duration > Real(0))) refuse("duration", double(duration), "> 0");
@@ -115,10 +118,10 @@ public:
         return network_.open_throats() - throats_.active_throats();
     }
 
-    /// The same for the duration that the parameters state.
+    /// The same for flow_parameters::duration.
     std::size_t deactivate_slow_throats() { return deactivate_slow_throats(Real(parameters_.duration)); }
 
-    /// Forces on the corners of a pore for 1 Pa in it, N; also of a pore at its least volume.
+    /// Forces on the corners of a pore for 1 Pa in it, N, even if the pore is at its least volume.
     std::array<vec<Real, Dim>, std::size_t(Dim) + 1> pore_tractions(std::size_t pore, points_view<Real, Dim> points,
                                                                     Real const* radii) const noexcept {
         return lacuna::pore_tractions(network_, thickness_, pore, points, radii);
@@ -129,8 +132,8 @@ public:
         return lacuna::storage_energy(network_, parameters_.bulk_modulus);
     }
 
-    /// Eq. 19 as printed, s: not safe where apertures differ. Skipped throats count.
-    /// With a law of sections, which have no aperture in its sense, infinite.
+    /// The paper's eq. 19 as printed, s; not safe where apertures differ. Skipped throats count. Infinite with a law of
+    /// the section, which has no aperture in the sense of eq. 19.
     Real mean_throat_limit() const {
         if constexpr (throat_section_law<aperture_type>) return std::numeric_limits<Real>::infinity();
         return lacuna::mean_throat_limit(network_, parameters_.bulk_modulus, parameters_.conductivity);
@@ -138,7 +141,7 @@ public:
 
     template <class Archive>
     void serialize(Archive& ar) {
-        ar(network_, ledger_, feed_);
+        ar(network_, ledger_, exchange_);
         if constexpr (Archive::is_loading::value) {
             throats_.collect_active(network_);
             clusters_.build(network_, parameters_.merge_conductance);
@@ -147,30 +150,31 @@ public:
 
 protected:
     using aperture_type = typename parameters::aperture_type;
-    /// Rigid pores of a bare network, whose volumes and apertures stay as given.
+    /// Rigid pores of a bare network, whose volumes and apertures stay constant.
     flow_base(parameters const& p, network_type network) : flow_base(p, std::move(network), Real(1)) {}
-    /// Pores of a body, at its present geometry.
+    /// Pores of a packing in its present geometry.
     flow_base(parameters const& p, network_type network, Real thickness, points_view<Real, Dim> points,
               Real const* radii)
         : flow_base(p, std::move(network), thickness) {
         refresh_geometry(points, radii);
         network_.old_volume = network_.volume;
-        // The sides of a facet are no pairs that touch: throats are opened by where the particles are.
+        // The pairs of a facet need not touch: the aperture depends on their distance.
         if constexpr (Dim == 3) refresh_apertures(particle_records(points, radii), std::array<Real, 1>{}.data());
     }
 
-    /// Takes over a network and a ledger.
-    /// \return whether throats join the same pores as before
+    /// Replaces network and ledger.
+    /// \return whether the throats connect the same pores as before
     bool restore_state(network_type network, flow_ledger<Real> const& ledger) {
         bool const same = network.corner == network_.corner && network.throat_pore == network_.throat_pore &&
-                          network.size == network_.size && network.pores() == network_.pores() && network.open_throats() == network_.open_throats();
+                          network.size == network_.size && network.pores() == network_.pores() &&
+                          network.open_throats() == network_.open_throats();
         network_ = std::move(network);
         ledger_ = ledger;
         fit_vapour();
         if (same) {
             pores_.set_padding(network_);
             throats_.collect_active(network_);
-            feed_.build(network_);
+            exchange_.build(network_);
             clusters_.build(network_, parameters_.merge_conductance);
         } else {
             build_tables();
@@ -184,87 +188,94 @@ protected:
                               : flow_critical_time_step(network_, parameters_.bulk_modulus);
     }
 
-    /// New volumes and forces for 1 Pa.
-    void update_geometry(Real const* place, int threads) noexcept {
-        for_each_chunk(pores_.chunks(), threads, [&](int c) { pores_.update_geometry(c, network_, place, thickness_, forces_); });
+    /// Updates the volumes, and the forces for 1 Pa.
+    void update_geometry(Real const* particles, int threads) noexcept {
+        for_each_chunk(pores_.chunks(), threads,
+                       [&](int c) { pores_.update_geometry(c, network_, particles, thickness_, forces_); });
     }
-    /// Forces of the pressures, after update_geometry().
+    /// Forces of the pressures, summed over the particles; after update_geometry().
     void apply_pressures(record_column<Real>* tractions, int threads) noexcept {
         for_each_chunk(pores_.chunks(), threads, [&](int c) { pores_.apply_pressures(c, network_, forces_); });
         write_tractions(tractions, threads);
     }
-    /// Makes room for the forces on the corners. \param transient see corner_forces
+    /// Allocates memory for the forces on the corners. \param transient see corner_forces
     void set_force_retention(bool transient) {
         if (forces_.built() && forces_.transient() == transient) return;
         forces_.build(network_, pore_table<Real, Dim>::chunk_packs * pore_table<Real, Dim>::width, transient);
     }
-    /// Whether forces can be summed up as soon as they are there: on one thread, with throats in the order of their pores,
-    /// and nothing changes a pressure after the pass over the pores.
+    /// Whether forces can be summed as soon as they are computed. That requires one thread, throats in the order of
+    /// their pores, and pressures that do not change after the pass over the pores.
     bool can_stream(int threads) const noexcept {
-        return threads == 1 && throats_.in_order() && feed_.pores().empty() && !clusters_.on();
+        return threads == 1 && throats_.in_order() && exchange_.pores().empty() && !clusters_.on();
     }
 
-    /// The whole step where can_stream(): throats, pores and sums on the particles follow each other run by run, while
-    /// what they read is in the cache. A throat belongs to the lower of its pores: once the throats before the end of a
-    /// run have their flows, nothing reads the old pressures of its pores again.
-    void fused_step(Real const* place, Real const* normal_forces, Real dt, bool flowing, record_column<Real>* tractions) noexcept {
+    /// The whole step if can_stream(). Throats, pores and sums over particles are computed block by block, while their
+    /// data are in the cache. A throat belongs to its lower-numbered pore. So after the flows of a block's throats,
+    /// nothing reads the old pressures of its pores any more.
+    void fused_step(Real const* particles, Real const* normal_forces, Real dt, bool flowing,
+                    record_column<Real>* tractions) noexcept {
         auto const fluid = constants();
         auto const flow_through = [&](std::size_t first, std::size_t end) {
-            throats_.template pass<true, true, aperture_type>(first, end, network_, place, normal_forces,
+            throats_.template pass<true, true, aperture_type>(first, end, network_, particles, normal_forces,
                                                               parameters_.aperture);
         };
         std::size_t done = 0;
-        // Drained throats belong to pores anywhere.
+        // Drained throats are not in the order of their pores.
         if (flowing) flow_through(throats_.first_beyond(network_, network_.pores(), 0), throats_.packs(false).size());
-        std::size_t const run = pore_table<Real, Dim>::chunk_packs * pore_table<Real, Dim>::width;
+        std::size_t const block = pore_table<Real, Dim>::chunk_packs * pore_table<Real, Dim>::width;
         for (int c = 0; c < pores_.chunks(); ++c) {
             if (flowing) {
-                std::size_t const end = throats_.first_beyond(network_, std::size_t(c + 1) * run, done);
+                std::size_t const end = throats_.first_beyond(network_, std::size_t(c + 1) * block, done);
                 flow_through(done, end);
                 done = end;
             }
-            pores_.template advance<true, false>(c, network_, place, fluid, dt, flowing, Real(1), forces_,
+            pores_.template advance<true, false>(c, network_, particles, fluid, dt, flowing, Real(1), forces_,
                                                  pore_sums_[std::size_t(c)]);
-            if (tractions) forces_.write_met(std::size_t(c), *tractions);
+            if (tractions) forces_.write_complete(std::size_t(c), *tractions);
         }
-        feed_.count(network_, dt, flowing);
+        exchange_.count(network_, dt, flowing);
     }
 
-    /// Eq. 14 from the present pressures, for all throats that are not skipped; with Moves, new apertures first.
+    /// The paper's eq. 14 from the present pressures, for all throats that are not skipped.
+    /// \tparam Moves whether to update the apertures first
     template <bool Moves>
-    void compute_flows(Real const* place, Real const* normal_forces, int threads) noexcept {
+    void compute_flows(Real const* particles, Real const* normal_forces, int threads) noexcept {
         for_each_chunk(throats_.chunks(false), threads, [&](int c) {
-            throats_.template pass<Moves, true, aperture_type>(c, network_, place, normal_forces, parameters_.aperture);
+            throats_.template pass<Moves, true, aperture_type>(c, network_, particles, normal_forces,
+                                                               parameters_.aperture);
         });
     }
 
-    /// Eq. 15 for all pores over dt [s], from the flows that the network holds, and what the sources bring.
-    /// \tparam Fused measures the pores and writes their forces in the same pass
+    /// The paper's eq. 15 for all pores over dt [s], from the flows stored in the network, and the exchange with
+    /// sources.
+    /// \tparam Fused whether to update the pores' geometry and write their forces in the same pass
     /// \param flowing whether anything flows through throats
     /// \param part see pore_table::advance()
     /// \param tractions as in step(); used if Fused
     template <bool Fused, bool WithLedger>
-    void advance_pressures(Real const* place, Real dt, Real part, bool flowing, int threads,
+    void advance_pressures(Real const* particles, Real dt, Real part, bool flowing, int threads,
                            [[maybe_unused]] record_column<Real>* tractions = nullptr) noexcept {
         auto const fluid = constants();
-        feed_.remember(network_);
+        exchange_.remember(network_);
         if constexpr (WithLedger) {
             clusters_.remember(network_);
             std::fill(throat_sums_.begin(), throat_sums_.end(), throat_sums<Real>{});
             add_up_throats(flowing ? dt : Real(0), threads);
         }
         for_each_chunk(pores_.chunks(), threads, [&](int c) {
-            pores_.template advance<Fused, WithLedger>(c, network_, place, fluid, dt, flowing, part, forces_,
+            pores_.template advance<Fused, WithLedger>(c, network_, particles, fluid, dt, flowing, part, forces_,
                                                        pore_sums_[std::size_t(c)]);
-            if (Fused && tractions && forces_.transient()) forces_.write_met(std::size_t(c), *tractions);
+            if (Fused && tractions && forces_.transient()) forces_.write_complete(std::size_t(c), *tractions);
         });
         pore_sums<Real> pores;
         throat_sums<Real> throats;
-        feed_.apply(network_, fluid, dt, flowing, pores, throats);
+        exchange_.apply(network_, fluid, dt, flowing, pores, throats);
         clusters_.template equalise<WithLedger>(network_, fluid, pores);
         if constexpr (Fused) {
-            for (auto const& f : feed_.pores()) pores_.press_one(f.pore, network_, place, thickness_, forces_);
-            for (auto const p : clusters_.members()) pores_.press_one(std::size_t(p), network_, place, thickness_, forces_);
+            for (auto const& f : exchange_.pores())
+                pores_.rewrite_forces(f.pore, network_, particles, thickness_, forces_);
+            for (auto const p : clusters_.members())
+                pores_.rewrite_forces(std::size_t(p), network_, particles, thickness_, forces_);
             if (!forces_.transient()) write_tractions(tractions, threads);
         }
         if constexpr (WithLedger) {
@@ -275,8 +286,9 @@ protected:
         }
     }
 
-    /// Several flow steps within one of dt [s], of pores measured before.
-    /// \param flow callable (first or not, dt, share of the volume change) that leaves the flows in the network
+    /// Takes several flow steps within one of dt [s]; the pores' geometry must be up to date.
+    /// \param flow callable (whether it is the first substep, its duration [s], its share of the remaining volume
+    ///        change) that writes the flows into the network
     template <bool WithLedger, class Flow>
     void take_substeps(int count, Real dt, int threads, Flow const& flow) {
         bool const flowing = flows() && dt > Real(0);
@@ -296,7 +308,7 @@ protected:
         if constexpr (WithLedger) ledger_.dissipation += lost;
     }
     void end_step(Real dt) noexcept {
-        if (dt > Real(0)) feed_.close(network_, dt);
+        if (dt > Real(0)) exchange_.close(network_, dt);
     }
 
     parameters parameters_;
@@ -304,7 +316,7 @@ protected:
     bool told_ = false;
     network_type network_;
     flow_ledger<Real> ledger_;
-    source_exchange<Real> feed_;
+    source_exchange<Real> exchange_;
     pore_clusters<Real, Dim> clusters_;
 
 private:
@@ -337,14 +349,14 @@ private:
         build_tables();
     }
 
-    /// A fluid that never tears has no vapour, one that does has some or none in every pore.
+    /// Sizes the array of vapour: empty for a fluid that never tears, otherwise one entry per pore.
     void fit_vapour() {
         if (!(parameters_.minimum_pressure > -std::numeric_limits<double>::infinity()))
             network_.vapour = {};
         else if (network_.vapour.empty())
             network_.vapour.assign(network_.pores(), Real(0));
     }
-    /// The throats' part in the ledger of a step with the present pressures; see throat_table::add_up().
+    /// Adds up the throats' energies with the present pressures; see throat_table::add_up().
     void add_up_throats(Real dt, int threads) noexcept {
         for_each_chunk(throats_.chunks(false), threads,
                        [&](int c) { throats_.add_up(c, network_, dt, throat_sums_[std::size_t(c)]); });
@@ -356,7 +368,7 @@ private:
         pore_sums_.resize(std::size_t(std::max(pores_.chunks(), 1)));
         throat_sums_.resize(std::size_t(throats_.chunks(true)));
         forces_ = {};
-        feed_.build(network_);
+        exchange_.build(network_);
         clusters_.build(network_, parameters_.merge_conductance);
     }
 

@@ -9,32 +9,33 @@
 
 namespace lacuna {
 
-/// Parameters of the fluid and its throats; Table 1 of the paper where it gives a value.
+/// Parameters of the fluid and its throats. Defaults are those of the paper's Table 1 where it gives a value.
 template <aperture_law Aperture>
 struct flow_parameters {
     using aperture_type = Aperture;
 
     double bulk_modulus = 2.2e9; ///< K_f of the fluid, Pa; > 0
-    /// k of eq. 14: C = k a^3 / l in m^3/(s Pa), so m/(s Pa); of a section (hydraulic_section) 1/(s Pa); >= 0
+    /// k of the paper's eq. 14, C = k a^3 / l in m^3/(s Pa), so in m/(s Pa); 1/(s Pa) for a law of the section
+    /// (hydraulic_section); >= 0
     double conductivity = 1e-9;
-    /// Least pore volume, as a share of the pore's triangle when the network was built (in space of
+    /// Least pore volume, as a share of the pore's triangle when the network was built (in space: of
     /// pore_network::size); > 0, <= 1.
     double minimum_volume_fraction = 1e-3;
-    double minimum_pressure = -std::numeric_limits<double>::infinity(); ///< the fluid tears below, Pa; <= 0
-    double initial_pressure = 0; ///< on top of the network's own, Pa; nowhere below minimum_pressure
-    /// Of the run, s: throats through which practically nothing passes within it are left out, see deactivate_slow_throats(); > 0,
-    /// infinite: none is. It does not depend on how a run is cut into calls of run().
+    /// The liquid tears below this pressure: the pressure stays here, and vapour fills the rest of the pore. Pa; <= 0
+    double minimum_pressure = -std::numeric_limits<double>::infinity();
+    double initial_pressure = 0; ///< added to the pressures of the network, Pa; no sum below minimum_pressure
+    /// Duration of the run, s; > 0. Throats through which practically nothing passes in this time are skipped, see
+    /// deactivate_slow_throats(); with infinity none is. The number of calls of run() does not matter.
     double duration = std::numeric_limits<double>::infinity();
     double skip_ratio = 1e6; ///< see deactivate_slow_throats(); > 0, infinity to skip none
-    /// Flow steps within one step, between which the change of volume is spread evenly; 0: as many as are safe.
+    /// Flow steps within one time step; each takes an equal part of the volume change. 0: as many as are safe.
     int substeps = 1;
-    /// Fluid flows through throats in one of so many steps of a simulation, for the time of all of them. In the others
-    /// pressures follow the volumes alone: the fluid's stiffness acts in every step, so the step's bound stays rigorous
-    /// and no energy comes in, as it would with pressures that wait. Of steps left over at the end of a run nothing has
-    /// flowed.
+    /// Fluid flows through throats in one of `interval` steps of a simulation, for the time of all of them. In the
+    /// other steps pressures follow the volumes only. So the stiffness of the fluid acts in every step: the bound of
+    /// the time step stays rigorous, and no energy enters, as it would with constant pressures. In steps left over at
+    /// the end of a run nothing flows.
     int interval = 1;
-    /// A throat that lets more through than this joins its two pores into one (pore_clusters), m^3/(s Pa); > 0,
-    /// infinity: never.
+    /// Conductance above which a throat merges its two pores (pore_clusters), m^3/(s Pa); > 0, infinity: never.
     double merge_conductance = std::numeric_limits<double>::infinity();
     typename Aperture::parameters aperture{};
 
@@ -55,7 +56,7 @@ struct flow_parameters {
         if (!(merge_conductance > 0)) refuse(name + ".merge_conductance", merge_conductance, "> 0");
         aperture.validate(name + ".aperture");
     }
-    /// \throws std::invalid_argument for a pressure that the fluid cannot have.
+    /// \throws std::invalid_argument for a pressure that is not finite, or below minimum_pressure.
     void require_pressure(std::string const& name, double pressure) const {
         require_finite(name, pressure);
         if (!(pressure >= minimum_pressure)) refuse(name, pressure, ">= minimum_pressure");

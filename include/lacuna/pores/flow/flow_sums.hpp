@@ -5,15 +5,15 @@
 
 namespace lacuna {
 
-/// What the pass over the pores needs to know of the fluid and the body.
+/// Constants of the pass over the pores.
 template <class Real>
 struct pore_constants {
     Real bulk_modulus;     ///< K_f, Pa
-    Real thickness;        ///< m
+    Real thickness;        ///< out of the plane, m; 1 in space
     Real minimum_pressure; ///< Pa; -infinity for a fluid that never tears
 };
 
-/// What one chunk of pores adds to the ledger and to the balance of the step.
+/// Contribution of one chunk of pores to the ledger and to the balance of the step.
 template <class Real>
 struct pore_sums {
     Real content = 0; ///< sum of (V dp / K_f + dV - dW), m^3
@@ -30,11 +30,11 @@ struct pore_sums {
     }
 };
 
-/// What one chunk of throats adds to the ledger and to the balance of the step.
+/// Contribution of one chunk of throats to the ledger and to the balance of the step.
 template <class Real>
 struct throat_sums {
     Real dissipation = 0, reservoir_work = 0; ///< as in flow_ledger, J
-    Real inflow = 0;                          ///< volume that came in from reservoirs, m^3
+    Real inflow = 0;                          ///< volume that entered from reservoirs and sources, m^3
     Real gross = 0;                           ///< sum of |q dt|, m^3
 
     throat_sums& operator+=(throat_sums const& o) noexcept {
@@ -46,7 +46,7 @@ struct throat_sums {
     }
 };
 
-/// Books one step, or one of several within a step: the balance adds up until open_step().
+/// Books one step or substep. Mass residual and gross volume accumulate until open_step().
 template <class Real>
 void book(flow_ledger<Real>& ledger, pore_sums<Real> const& pores, throat_sums<Real> const& throats) noexcept {
     ledger.dissipation += throats.dissipation;
@@ -59,7 +59,7 @@ void book(flow_ledger<Real>& ledger, pore_sums<Real> const& pores, throat_sums<R
     ledger.gross_volume += pores.changed + throats.gross;
 }
 
-/// The balance of a new step.
+/// Resets mass residual and gross volume for a new step.
 template <class Real>
 void open_step(flow_ledger<Real>& ledger) noexcept {
     ledger.mass_residual = ledger.gross_volume = Real(0);

@@ -22,14 +22,14 @@
 
 namespace lacuna {
 
-/// Parameters of the implicit scheme: those of the fluid and its throats, and how exactly equations are solved.
+/// Parameters of the implicit scheme: those of the fluid and its throats, and tolerances of the linear solver.
 template <aperture_law Aperture>
 struct implicit_flow_parameters : flow_parameters<Aperture> {
-    /// Relative change of a pore's volume, a throat's conductance or the time step up to which an earlier factorisation
-    /// serves as preconditioner; 0: factorise whenever anything has changed; 0 to < 1.
+    /// An earlier factorisation serves as preconditioner until a pore's volume, a throat's conductance or the time step
+    /// has changed by more than this share; >= 0, < 1. With 0 any change leads to a new factorisation.
     double factorisation_tolerance = 0.2;
-    /// What may be left of the equations, as a pressure over the largest in the network; > 0, < 1. Mass is kept to
-    /// rounding whatever it is.
+    /// Largest residual of the equations, as a pressure over the largest pressure in the network; > 0, < 1. Mass is
+    /// conserved to rounding for any value.
     double solver_tolerance = 1e-10;
 
     /// \throws std::invalid_argument naming field, value and rule.
@@ -53,23 +53,24 @@ struct implicit_flow_parameters : flow_parameters<Aperture> {
 };
 
 LACUNA_BEGIN_PACKS
-/// Backward Euler for eq. 14 and 15: all flows from the new pressures, of
+/// Backward Euler for the paper's eq. 14 and 15. All flows follow from the new pressures, which solve
 ///
 ///   (V / K_f + dt L) p_new = V / K_f p_old + dt (sources) - dV,
 ///
-/// L the network's Laplacian of conductances with the reservoirs' in its diagonal. Stable for any step, of first order,
-/// no pressure leaves the range of the old ones and the reservoirs'. The paper has the explicit scheme alone.
+/// where L is the Laplacian of the network, weighted with the conductances; those of drained throats add to its
+/// diagonal. The scheme is stable for any step, and of first order. No pressure leaves the range of the old pressures
+/// and those of the reservoirs. (The paper has the explicit scheme only.)
 ///
-/// The equations are solved for the change of the pressures, and the flows corrected by the change: a flow has the
-/// accuracy of itself, not of the pressures whose difference it is. Pressures then follow from the flows as in the
-/// explicit scheme, so that mass is kept to rounding. Where a step is R times the explicit limit, differences between
-/// the pressures of neighbours carry rounding of R times 1e-16 of themselves.
+/// The equations are solved for the change of the pressures, and the flows are corrected by that change. So the
+/// rounding error of a flow is relative to the flow, not to the pressures whose difference drives it. Pressures then
+/// follow from the flows as in the explicit scheme, so mass is conserved to rounding. In a step of R times the explicit
+/// limit, pressure differences between neighbours have a relative rounding error of R times 1e-16.
 ///
-/// How far an earlier factorisation is from the present numbers leaves its trace below `solver_tolerance`: a checkpoint
-/// keeps the numbers that were factorised.
+/// Below `solver_tolerance` the result depends on the factorisation in use. A checkpoint therefore stores the numbers
+/// that were factorised.
 ///
 /// Memory is allocated when a topology is analysed and when numbers are factorised, in no other step. The equations are
-/// solved on one thread, in double precision also for float: the same bits for any number of threads.
+/// solved on one thread and in double precision, for float too: results are the same bits for any number of threads.
 template <class Real, int Dim, aperture_law Aperture>
 class implicit_flow_solver : public flow_base<Real, Dim, implicit_flow_parameters<Aperture>> {
     using base = flow_base<Real, Dim, implicit_flow_parameters<Aperture>>;
@@ -78,14 +79,14 @@ public:
     using parameters = implicit_flow_parameters<Aperture>;
     using network_type = pore_network<Real, Dim>;
 
-    /// Rigid pores: a bare network, whose volumes and apertures stay as given.
+    /// Rigid pores: a bare network, whose volumes and apertures stay constant.
     /// \throws std::invalid_argument for parameters out of range.
     implicit_flow_solver(parameters const& p, network_type network) : base(p, std::move(network)) { prepare(); }
 
-    /// Pores of a body, at its present geometry and the apertures of pairs at zero force that touch (in space: pairs at
-    /// zero force where they are).
-    /// \param thickness of the body, out of the plane, m; > 0; in space 1
-    /// \param points centres, m; \param radii m: of all particles
+    /// Pores of a packing in its present geometry. Initial apertures are those of pairs that touch without force (in
+    /// space: of pairs without force at their present distance).
+    /// \param thickness out of the plane, m; > 0; in space 1
+    /// \param points centres of all particles, m; \param radii of all particles, m
     /// \throws std::invalid_argument for parameters out of range.
     implicit_flow_solver(parameters const& p, network_type network, Real thickness, points_view<Real, Dim> points,
                          Real const* radii)
@@ -93,8 +94,8 @@ public:
         prepare();
     }
 
-    /// Goes on from another network and ledger: earlier ones of the same body, or those of a new mesh (then
-    /// map_throats() anew). Volumes, apertures and conductances are taken as they are.
+    /// Continues from another network and ledger: an earlier state of the same mesh, or those of a new mesh (then call
+    /// map_throats() again). Volumes, apertures and conductances are used unchanged.
     void restore(network_type network, flow_ledger<Real> const& ledger) {
         if (this->restore_state(std::move(network), ledger))
             mark_held();
@@ -102,12 +103,12 @@ public:
             prepare();
     }
 
-    /// One step of dt [s] of a body: new geometry and apertures, new pressures, eq. 16's forces from them. Within a
-    /// step of 0 s pressures follow the volumes, and nothing flows.
-    /// \tparam WithLedger also keeps ledger()
-    /// \param tractions as in explicit_flow_solver::step()
+    /// One step of dt [s]: new geometry and apertures, new pressures, and their forces (eq. 16). In a step of 0 s
+    /// pressures follow the volumes, and nothing flows.
+    /// \tparam WithLedger whether to update ledger()
+    /// \param particles, normal_forces, tractions as in explicit_flow_solver::step()
     template <bool WithLedger>
-    void step(body_column<Real> const& place, Real const* normal_forces, Real dt, int threads = 1,
+    void step(body_column<Real> const& particles, Real const* normal_forces, Real dt, int threads = 1,
               record_column<Real>* tractions = nullptr) {
         if (this->network_.bare()) {
             if (tractions) tractions->assign(tractions->size(), record<Real>(Real(0)));
@@ -117,17 +118,18 @@ public:
         bool const flowing = this->flows() && dt > Real(0);
         this->set_force_retention(false);
         if (flowing) {
-            this->update_geometry(place.data(), threads);
-            this->template compute_flows<true>(place.data(), normal_forces, threads);
+            this->update_geometry(particles.data(), threads);
+            this->template compute_flows<true>(particles.data(), normal_forces, threads);
             this->template take_substeps<WithLedger>(
                 count_substeps(), dt, threads, [&](bool, Real part, Real share) { solve_flows(part, share); });
             this->apply_pressures(tractions, threads);
         } else {
-            this->template advance_pressures<true, WithLedger>(place.data(), dt, Real(1), false, threads, tractions);
+            this->template advance_pressures<true, WithLedger>(particles.data(), dt, Real(1), false, threads,
+                                                               tractions);
         }
         this->end_step(dt);
     }
-    /// The same with volumes and apertures as they are, and without forces: the step of rigid pores.
+    /// One step of dt [s] with constant volumes and apertures, without forces: the step of rigid pores.
     template <bool WithLedger = true>
     void advance(Real dt, int threads = 1) {
         this->template begin_step<WithLedger>();
@@ -136,12 +138,12 @@ public:
         this->end_step(dt);
     }
 
-    /// No step is too long: infinity, s.
+    /// Infinity, s: any step is stable.
     Real critical_time_step() const noexcept { return std::numeric_limits<Real>::infinity(); }
 
-    /// How often topologies were analysed and numbers factorised, and the iterations of all steps together.
+    /// Numbers of analyses of a topology, of factorisations, and of iterations, summed over all steps.
     pressure_system::counters const& solver_counters() const noexcept { return system_.done(); }
-    /// What the last step left of the equations, as a pressure over the largest in the network.
+    /// Residual of the equations in the last step, as a pressure over the largest pressure in the network.
     double solver_residual() const noexcept { return left_; }
 
     template <class Archive>
@@ -164,7 +166,7 @@ private:
     }
     void mark_held() {
         std::fill(system_.held().begin(), system_.held().end(), char(0));
-        for (auto const& f : this->feed_.pores())
+        for (auto const& f : this->exchange_.pores())
             if (holds(f)) system_.held()[f.pore] = 1;
     }
     template <class Fed>
@@ -172,8 +174,8 @@ private:
         return this->network_.sources[f.source].kind == flow_source_kind::pressure;
     }
 
-    /// Leaves in the network the flows of the pressures after dt [s], the pores going `share` of the way from their old
-    /// volumes to the network's.
+    /// Writes the flows that belong to the pressures after dt [s] into the network.
+    /// \param share share of the change from old_volume to volume that takes particles in this time
     void solve_flows(Real time_step, Real share) {
         auto& net = this->network_;
         double const dt = double(time_step);
@@ -185,16 +187,16 @@ private:
         }
         for (std::size_t t = 0; t < net.open_throats(); ++t)
             system_.leak()[t] = net.inactive[t] ? 0.0 : dt * double(net.conductance[t]);
-        for (auto const& f : this->feed_.pores())
+        for (auto const& f : this->exchange_.pores())
             if (holds(f)) pressure_[f.pore] = net.sources[f.source].value;
         for (std::size_t t = 0; t < net.open_throats(); ++t)
             flow_[t] = net.inactive[t] ? 0.0 : double(net.conductance[t]) * (far_pressure(t) - pressure_[near(t)]);
         system_.prepare(this->parameters_.factorisation_tolerance);
         double const tolerance = this->parameters_.solver_tolerance;
-        left_ = left_over(dt, double(share));
+        left_ = compute_residual(dt, double(share));
         for (int round = 0; round < 4 && !(left_ <= tolerance); ++round) {
             double const before = left_;
-            // The last thing to help is a new factorisation.
+            // The last resort is a new factorisation.
             if (round == 3) system_.factorise();
             system_.solve(residual_, change_, 0.1 * tolerance * scale_);
             for (std::size_t i = 0; i < net.pores(); ++i) pressure_[i] += change_[i];
@@ -203,15 +205,16 @@ private:
                 double const far = t < net.interior_throats ? change_[std::size_t(net.throat_pore[1][t])] : 0.0;
                 flow_[t] += double(net.conductance[t]) * (far - change_[near(t)]);
             }
-            left_ = left_over(dt, double(share));
-            // Rounding is reached.
+            left_ = compute_residual(dt, double(share));
+            // Only rounding is left.
             if (round > 0 && left_ > 0.5 * before) break;
         }
         for (std::size_t t = 0; t < net.open_throats(); ++t) net.flow[t] = Real(flow_[t]);
     }
 
-    /// What the present flows and pressures leave of the equations, as a pressure over the largest one.
-    double left_over(double dt, double share) noexcept {
+    /// Computes the residual of the equations for the present flows and pressures.
+    /// \return its largest entry, as a pressure over the largest pressure in the network
+    double compute_residual(double dt, double share) noexcept {
         auto const& net = this->network_;
         auto const& content = system_.content();
         scale_ = 0;
@@ -229,7 +232,7 @@ private:
             else
                 scale_ = std::max(scale_, std::fabs(double(net.reservoir_pressure(t))));
         }
-        for (auto const& f : this->feed_.pores())
+        for (auto const& f : this->exchange_.pores())
             if (!holds(f)) residual_[f.pore] += net.sources[f.source].value * f.share * dt;
         double most = 0;
         for (std::size_t i = 0; i < net.pores(); ++i) {
@@ -252,7 +255,7 @@ private:
 };
 LACUNA_END_PACKS
 
-/// Flow policy: implicit_flow_solver with an aperture law of one's choice.
+/// Flow policy: implicit_flow_solver with a chosen aperture law.
 template <aperture_law Aperture>
 struct implicit_flow_with {
     using parameters = implicit_flow_parameters<Aperture>;

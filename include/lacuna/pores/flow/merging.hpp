@@ -12,30 +12,31 @@
 
 namespace lacuna {
 
-/// Pores that have become one (the paper's Fig. 5b): those joined by throats whose conductance exceeds a threshold.
-/// They are a cluster with one pressure and the sum of the volumes, and flow within it needs no time step.
+/// Clusters of pores that have merged (the paper's Fig. 5b): pores joined by throats whose conductance exceeds a
+/// threshold. A cluster has one pressure and the sum of the volumes. Flow within a cluster does not limit the time
+/// step.
 ///
-/// Each pore of a cluster is advanced by itself, as if the throats within the cluster were shut; then they all take the
-/// mean of their pressures, weighted with their volumes, which is eq. 15 of the cluster as a whole. The same mean is
-/// taken when pores join: no fluid is made or lost, and the energy that it costs is booked as dissipation. Pores that
-/// part keep the pressure. Clusters are formed anew at the beginning of each step in which a conductance has crossed
-/// the threshold since the last. Throats to reservoirs and pores that a flow_source acts on do not merge.
+/// Each pore of a cluster is advanced by itself. Then all its pores get the mean of their pressures, weighted with the
+/// volumes. That is eq. 15 for the whole cluster, since flow between its pores cancels in the mean. Pores that join get
+/// the same mean: it conserves the fluid, and the energy lost is booked as dissipation. Pores that separate keep their
+/// pressure. Clusters are formed again at the beginning of a step if a conductance has crossed the threshold since the
+/// last step. Throats to reservoirs do not merge pores, nor do pores merge on which a flow_source acts.
 ///
-/// Not in parallel: the same bits for any number of threads. Allocates no memory after build().
+/// Runs on one thread, so results are the same bits for any number of threads. Allocates no memory after build().
 template <class Real, int Dim = 2>
 class pore_clusters {
 public:
-    /// \param threshold conductance above which a throat joins its pores, m^3/(s Pa); > 0, infinity for none
+    /// \param threshold conductance above which a throat merges its pores, m^3/(s Pa); > 0, infinity for none
     void build(pore_network<Real, Dim> const& net, double threshold) {
         threshold_ = Real(threshold);
         if (!on()) return;
         std::size_t const pores = net.pores();
         joined_.assign(net.interior_throats, 0);
         label_.resize(pores);
-        apart_.assign(pores, 0);
+        excluded_.assign(pores, 0);
         clustered_.assign(pores, 0);
         for (auto const& source : net.sources)
-            for (auto const p : source.pores) apart_[std::size_t(p)] = 1;
+            for (auto const p : source.pores) excluded_[std::size_t(p)] = 1;
         members_.clear();
         members_.reserve(pores);
         first_.clear();
@@ -44,15 +45,16 @@ public:
         form(net);
     }
 
+    /// Whether pores can merge: the threshold is finite.
     bool on() const noexcept { return threshold_ < std::numeric_limits<Real>::infinity(); }
-    /// Clusters of at least two pores.
+    /// Number of clusters; each has at least two pores.
     std::size_t clusters() const noexcept { return first_.empty() ? 0 : first_.size() - 1; }
     /// Pores that are in a cluster, cluster by cluster.
     std::vector<std::int32_t> const& members() const noexcept { return members_; }
-    /// The lowest-numbered pore of the cluster that a pore is in: itself if it is alone.
+    /// Lowest number of a pore in the cluster of `pore`; `pore` itself if it is in no cluster.
     std::size_t label(std::size_t pore) const noexcept { return on() ? std::size_t(label_[pore]) : pore; }
 
-    /// Forms the clusters anew if a conductance has crossed the threshold.
+    /// Forms the clusters again if a conductance has crossed the threshold.
     void update(pore_network<Real, Dim> const& net) noexcept {
         if (!on()) return;
         for (std::size_t t = 0; t < net.interior_throats; ++t)
@@ -60,19 +62,19 @@ public:
     }
 
     /// Mixes the fluid of pores that have joined since the last call.
-    /// \return energy lost by that, J, >= 0 but for rounding
+    /// \return energy lost by mixing, J; >= 0 up to rounding
     Real settle(pore_network<Real, Dim>& net, pore_constants<Real> const& fluid) noexcept {
-        if (!unsettled_) return Real(0);
-        unsettled_ = false;
+        if (!unmixed_) return Real(0);
+        unmixed_ = false;
         Real lost(0);
         for (std::size_t c = 0; c < clusters(); ++c) {
-            bool even = true;
+            bool uniform = true;
             auto const lowest = std::size_t(members_[std::size_t(first_[c])]);
             for (auto k = first_[c]; k < first_[c + 1]; ++k) {
                 auto const p = std::size_t(members_[std::size_t(k)]);
-                even = even && net.pressure[p] == net.pressure[lowest] && net.vapour_of(p) == Real(0);
+                uniform = uniform && net.pressure[p] == net.pressure[lowest] && net.vapour_of(p) == Real(0);
             }
-            if (even) continue;
+            if (uniform) continue;
             lost += stored(net, fluid, c);
             mix(net, fluid, c, [](std::size_t, Real, Real) {});
             lost -= stored(net, fluid, c);
@@ -80,7 +82,7 @@ public:
         return lost;
     }
 
-    /// To be called before the pass over the pores, when the ledger is kept.
+    /// Stores pressures, volumes and vapour for the ledger; call it before the pass over the pores.
     void remember(pore_network<Real, Dim> const& net) noexcept {
         for (std::size_t k = 0; k < members_.size(); ++k) {
             auto const p = std::size_t(members_[k]);
@@ -88,8 +90,8 @@ public:
         }
     }
 
-    /// After the pass over the pores: one pressure in each cluster.
-    /// \param sums of the pass, which this corrects if WithLedger
+    /// Gives each cluster one pressure; call it after the pass over the pores.
+    /// \tparam WithLedger whether to correct `sums`, the sums of that pass
     template <bool WithLedger>
     void equalise(pore_network<Real, Dim>& net, pore_constants<Real> const& fluid, pore_sums<Real>& sums) noexcept {
         Real const half(0.5);
@@ -99,7 +101,7 @@ public:
                     auto const p = std::size_t(members_[k]);
                     auto const& old = before_[k];
                     Real const volume = net.old_volume[p];
-                    // As net holds the pore after the pass; pressure and vapour are those after mixing.
+                    // net still holds the state before mixing; `pressure` and `vapour` are the state after it.
                     Real const passed = (old.pressure + net.pressure[p]) * half,
                                mixed = (old.pressure + pressure) * half;
                     sums.content +=
@@ -110,7 +112,7 @@ public:
             });
     }
 
-    /// flow_critical_time_step() of the clusters: flow within them needs none.
+    /// As flow_critical_time_step(), with each cluster as one pore: throats within clusters set no limit. s
     Real critical_time_step(pore_network<Real, Dim> const& net, double bulk_modulus) const noexcept {
         double limit = std::numeric_limits<double>::infinity();
         auto const outflow = [&](std::size_t p) {
@@ -145,8 +147,8 @@ private:
     };
 
     bool joins(pore_network<Real, Dim> const& net, std::size_t t) const noexcept {
-        return net.conductance[t] > threshold_ && !apart_[std::size_t(net.throat_pore[0][t])] &&
-               !apart_[std::size_t(net.throat_pore[1][t])];
+        return net.conductance[t] > threshold_ && !excluded_[std::size_t(net.throat_pore[0][t])] &&
+               !excluded_[std::size_t(net.throat_pore[1][t])];
     }
 
     std::int32_t root(std::int32_t p) noexcept {
@@ -158,9 +160,9 @@ private:
         return p;
     }
 
-    /// Union-find over the throats, the lowest number as root; then the members of each cluster, in ascending order.
+    /// Union-find over the throats, with the lowest number as root, then sorts the members by cluster and number.
     void form(pore_network<Real, Dim> const& net) noexcept {
-        unsettled_ = true;
+        unmixed_ = true;
         std::size_t const pores = net.pores();
         for (std::size_t p = 0; p < pores; ++p) label_[p] = std::int32_t(p);
         for (std::size_t t = 0; t < net.interior_throats; ++t) {
@@ -197,10 +199,11 @@ private:
         return sum / (Real(2) * fluid.bulk_modulus);
     }
 
-    /// Gives the pores of cluster c one pressure; what liquid does not fill is spread evenly.
-    /// \param look called with (place among the members, new pressure, new vapour) before the network has them
-    template <class Look>
-    void mix(pore_network<Real, Dim>& net, pore_constants<Real> const& fluid, std::size_t c, Look const& look) noexcept {
+    /// Gives the pores of cluster c one pressure, and distributes the vapour in proportion to the volumes.
+    /// \param visit called with (index in members_, new pressure, new vapour) before the network is changed
+    template <class Visit>
+    void mix(pore_network<Real, Dim>& net, pore_constants<Real> const& fluid, std::size_t c,
+             Visit const& visit) noexcept {
         Real volume(0), content(0), vapour(0);
         for (auto k = first_[c]; k < first_[c + 1]; ++k) {
             auto const p = std::size_t(members_[std::size_t(k)]);
@@ -215,19 +218,21 @@ private:
         for (auto k = first_[c]; k < first_[c + 1]; ++k) {
             auto const p = std::size_t(members_[std::size_t(k)]);
             Real const left = share * net.old_volume[p];
-            look(std::size_t(k), pressure, left);
+            visit(std::size_t(k), pressure, left);
             net.pressure[p] = pressure;
             if (!net.vapour.empty()) net.vapour[p] = left;
         }
     }
 
     Real threshold_ = std::numeric_limits<Real>::infinity();
-    std::vector<std::uint8_t> joined_;    // of interior throats: above the threshold
-    std::vector<std::uint8_t> apart_;     // of pores: a source acts on it
-    std::vector<std::uint8_t> clustered_; // of pores: not alone
-    std::vector<std::int32_t> label_, members_, first_;
-    std::vector<state> before_; // of members
-    bool unsettled_ = false;
+    std::vector<std::uint8_t> joined_;    // per interior throat: whether it merges its pores
+    std::vector<std::uint8_t> excluded_;  // per pore: whether a source acts on it
+    std::vector<std::uint8_t> clustered_; // per pore: whether it is in a cluster
+    std::vector<std::int32_t> label_;     // per pore: see label()
+    std::vector<std::int32_t> members_;
+    std::vector<std::int32_t> first_; // per cluster: index in members_ of its first pore
+    std::vector<state> before_;       // per member: state before the pass over the pores
+    bool unmixed_ = false;
 };
 
 } // namespace lacuna

@@ -10,8 +10,8 @@
 
 namespace lacuna::detail {
 
-/// Numbers base[index[0]], base[index[1]], ... Written out: from a loop over the lanes g++ 12 builds the pack in
-/// memory, and waits for it.
+/// Pack of the numbers base[index[0]], base[index[1]], ... The lanes are written out: for a loop, g++ 12 builds the
+/// pack in memory and stalls on the load.
 template <class T, int W, class Index>
 pack<T, W> gather(T const* base, Index const* index) noexcept {
     using native = typename pack<T, W>::native;
@@ -29,27 +29,27 @@ pack<T, W> gather(T const* base, Index const* index) noexcept {
     }
 }
 
-/// Record of a particle.
-/// \param place records of the particles, as particle_store has them; here and below
+/// Position and radius of a particle, one record.
+/// \param particles records of the particles, as in particle_store; here and below
 template <class T>
-record<T> load_body(T const* place, std::int32_t index) noexcept {
-    return record<T>::load(place + body_column<T>::stride * std::size_t(std::uint32_t(index)));
+record<T> load_particle(T const* particles, std::int32_t index) noexcept {
+    return record<T>::load(particles + body_column<T>::stride * std::size_t(std::uint32_t(index)));
 }
 
-/// Places of the particles index[0..W), turned: result[l][k] is number l of the record of particle index[k].
+/// Positions and radii of the particles index[0..W), transposed: result[l][k] is number l of particle index[k].
 template <class T, int W>
-std::array<pack<T, W>, 4> load_bodies(T const* place, std::int32_t const* index) noexcept {
-    return transpose_load<T, W>([&](int k) { return load_body(place, index[k]); });
+std::array<pack<T, W>, 4> load_particles(T const* particles, std::int32_t const* index) noexcept {
+    return transpose_load<T, W>([&](int k) { return load_particle(particles, index[k]); });
 }
 
-/// W numbers that are kept in single precision.
+/// Loads W numbers that are stored in single precision.
 template <class T, int W>
 pack<T, W> load_single(float const* from) noexcept {
     auto const single = pack<float, W>::load(from);
     return pack<T, W>(__builtin_convertvector(single.v, typename pack<T, W>::native));
 }
 
-/// Numbers x[k], y[k] one after the other.
+/// Stores x[0], y[0], x[1], y[1], ...
 template <class T, int W>
 void store_pairs(T* to, pack<T, W> const& x, pack<T, W> const& y) noexcept {
     using native = typename pack<T, W>::native;

@@ -22,21 +22,22 @@
 
 namespace lacuna {
 
-/// Particles as particle_store has them, as far as pores read them: {x, y, -, radius}, in space {x, y, z, radius}, m.
+/// Records of particles, laid out as in particle_store, with the numbers that pores read: {x, y, -, radius}, in space
+/// {x, y, z, radius}, m.
 template <class Real, int Dim>
 body_column<Real> particle_records(points_view<Real, Dim> points, Real const* radii) {
-    body_column<Real> place;
-    place.resize(points.size());
+    body_column<Real> particles;
+    particles.resize(points.size());
     for (std::size_t k = 0; k < points.size(); ++k) {
-        for (int axis = 0; axis < Dim; ++axis) place.at(k, axis) = points(k, axis);
-        place.at(k, 3) = radii[k];
+        for (int axis = 0; axis < Dim; ++axis) particles.at(k, axis) = points(k, axis);
+        particles.at(k, 3) = radii[k];
     }
-    return place;
+    return particles;
 }
 
 LACUNA_BEGIN_PACKS
-/// The pass over the pores: whole packs. The last pore fills up the last one, with a least volume that no pore has: its
-/// volume and pressure never change, so it adds nothing to any sum.
+/// The pass over the pores, in whole packs. The last pack is padded with copies of the last pore's corners and a huge
+/// least volume. The volume and pressure of padding never change, so it adds nothing to any sum.
 template <class Real, int Dim>
 class pore_table {
 public:
@@ -46,14 +47,14 @@ public:
     /// Packs that one thread handles at a time.
     static constexpr std::size_t chunk_packs = 128;
 
-    /// \param minimum_share least volume of a pore as a share of its size at build time, times the thickness, m
+    /// \param minimum_share least pore volume as a share of pore_network::size, times the thickness, m (1 in space)
     void build(pore_network<Real, Dim>& net, Real minimum_share) {
         packs_ = (net.pores() + width - 1) / width;
         minimum_share_ = minimum_share;
         set_padding(net);
     }
 
-    /// Gives what fills up the last pack its values; for a network that comes from elsewhere.
+    /// Sets the padding of a network that was not set up by build().
     void set_padding(pore_network<Real, Dim>& net) const noexcept {
         Real const volume = minimum_share_ * padding_size;
         net.volume.set_padding(volume);
@@ -67,15 +68,15 @@ public:
 
     int chunks() const noexcept { return int((packs_ + chunk_packs - 1) / chunk_packs); }
 
-    /// Measures the pores of one chunk anew: their volumes, and the forces on their corners for 1 Pa.
-    [[gnu::noinline, gnu::flatten]] void update_geometry(int chunk, pore_network<Real, Dim>& net, Real const* place,
+    /// Updates the pores of one chunk: their volumes, and the forces on their corners for 1 Pa.
+    [[gnu::noinline, gnu::flatten]] void update_geometry(int chunk, pore_network<Real, Dim>& net, Real const* particles,
                                                  Real body_thickness, forces& exerted) const noexcept {
         using lanes = pack<Real, width>;
         lanes thickness(body_thickness), share(minimum_share_), zero(Real(0));
         std::size_t const first = std::size_t(chunk) * chunk_packs, end = std::min(first + chunk_packs, packs_);
         for (std::size_t p = first; p < end; ++p) {
             std::size_t const slot = p * width;
-            auto shape = measure_pack(net, place, slot);
+            auto shape = measure_pack(net, particles, slot);
             lanes free_volume = volume_of(shape) * thickness, floor = lanes::load(net.size.data() + slot) * share;
             lanes exerts = select(free_volume > floor, thickness, zero);
             max(free_volume, floor).store(net.volume.data() + slot);
@@ -83,7 +84,7 @@ public:
         }
     }
 
-    /// Turns the forces for 1 Pa, as update_geometry() left them, into those of the pressures.
+    /// Multiplies the forces for 1 Pa from update_geometry() by the pressures.
     [[gnu::noinline, gnu::flatten]] void apply_pressures(int chunk, pore_network<Real, Dim> const& net,
                                                forces& exerted) const noexcept {
         using lanes = pack<Real, width>;
@@ -97,31 +98,32 @@ public:
         }
     }
 
-    /// Writes the forces of one pore, whose pressure has changed since the pass.
-    void press_one(std::size_t pore, pore_network<Real, Dim> const& net, Real const* place, Real body_thickness,
-                   forces& exerted) const noexcept {
+    /// Writes the forces of one pore again, after its pressure has changed since the pass.
+    void rewrite_forces(std::size_t pore, pore_network<Real, Dim> const& net, Real const* particles,
+                        Real body_thickness, forces& exerted) const noexcept {
         std::array<vec<Real, Dim>, corners> x;
         std::array<Real, corners> r;
         for (std::size_t c = 0; c < corners; ++c) {
-            Real const* at = place + body_column<Real>::stride * std::size_t(net.corner[c][pore]);
+            Real const* at = particles + body_column<Real>::stride * std::size_t(net.corner[c][pore]);
             for (int axis = 0; axis < Dim; ++axis) x[c][axis] = at[axis];
             r[c] = at[3];
         }
         auto const shape = measure_simplex(x, r);
-        Real const push = net.volume[pore] > minimum_share_ * net.size[pore] ? net.pressure[pore] * body_thickness : Real(0);
+        bool const at_least_volume = !(net.volume[pore] > minimum_share_ * net.size[pore]);
+        Real const push = at_least_volume ? Real(0) : net.pressure[pore] * body_thickness;
         for (std::size_t c = 0; c < corners; ++c)
             for (int axis = 0; axis < Dim; ++axis) exerted.of(pore, c)[axis] = shape.traction[c][axis] * push;
     }
 
-    /// Eq. 15 for the pores of one chunk, from the flows that the network holds.
-    /// \tparam Moves first measures the pores anew, and writes eq. 16's forces of the new pressures. A pore at its
-    ///         least volume exerts none: its volume does not change when its corners move.
-    /// \tparam WithLedger also sums up energies
-    /// \param place records of the particles, as particle_store has them; used if Moves
-    /// \param flows whether any throat is open
-    /// \param part unless Moves: how much of the way from the old volumes to the network's the pores go
+    /// The paper's eq. 15 for the pores of one chunk, from the flows stored in the network.
+    /// \tparam Moves whether to update the pores' geometry first, and to write the forces of the new pressures (eq.
+    ///         16). A pore at its least volume exerts none: its volume does not change when its corners move.
+    /// \tparam WithLedger whether to sum energies
+    /// \param particles records of the particles, as in particle_store; used if Moves
+    /// \param flows whether any throat has flow
+    /// \param part share of the change from old_volume to volume that takes particles now; 1 if Moves
     template <bool Moves, bool WithLedger>
-    [[gnu::noinline, gnu::flatten]] void advance(int chunk, pore_network<Real, Dim>& net, Real const* place,
+    [[gnu::noinline, gnu::flatten]] void advance(int chunk, pore_network<Real, Dim>& net, Real const* particles,
                                                  pore_constants<Real> const& fluid, Real time_step, bool flows,
                                                  [[maybe_unused]] Real part, [[maybe_unused]] forces& exerted,
                                                  pore_sums<Real>& sums) const noexcept {
@@ -138,11 +140,11 @@ public:
             shape_of<lanes> shape;
             lanes volume, exerts, last = lanes::load(net.old_volume.data() + slot);
             if constexpr (Moves) {
-                // The other corners are those of pores before, most of them.
+                // Earlier pores have already loaded most of the other corners.
                 if (ahead > 0 && p + ahead < packs_)
-                    prefetch_records<width>(place, net.corner[corners - 1].data() + slot + ahead * width,
+                    prefetch_records<width>(particles, net.corner[corners - 1].data() + slot + ahead * width,
                                          body_column<Real>::stride);
-                shape = measure_pack(net, place, slot);
+                shape = measure_pack(net, particles, slot);
                 lanes free_volume = volume_of(shape) * thickness, floor = lanes::load(net.size.data() + slot) * share;
                 volume = max(free_volume, floor);
                 exerts = select(free_volume > floor, thickness, zero);
@@ -153,23 +155,23 @@ public:
             }
             lanes grown = volume - last;
             lanes old = lanes::load(net.pressure.data() + slot);
-            lanes came = zero;
+            lanes inflow = zero;
             if (flows) {
                 lanes outflows = detail::load_single<Real, width>(net.throats_of.outflows(p));
                 for (std::size_t e = 0; e < net.throats_of.row(); ++e) {
                     lanes q = detail::gather<Real, width>(flow, net.throats_of.throats(p, e));
-                    came += select(outflows > lanes(Real(e)), -q, q);
+                    inflow += select(outflows > lanes(Real(e)), -q, q);
                 }
-                came *= dt;
+                inflow *= dt;
             }
             lanes per_volume = stiffness / volume;
-            lanes next = old + per_volume * (came - grown);
+            lanes next = old + per_volume * (inflow - grown);
             lanes torn = zero;
             if (tears) {
                 lanes vapour = lanes::load(net.vapour.data() + slot);
                 lanes wanted = next - per_volume * vapour;
                 next = max(wanted, least);
-                // No vapour at all where the pressure holds: rounding must not leave a trace of it.
+                // Exactly zero above the minimum pressure: rounding must leave no vapour there.
                 lanes now = select(wanted < least, (least - wanted) * volume * compliance, zero);
                 torn = now - vapour;
                 now.store(net.vapour.data() + slot);
@@ -201,10 +203,12 @@ private:
     static T const& volume_of(tetrahedron_shape<T> const& shape) noexcept {
         return shape.void_volume;
     }
-    [[gnu::always_inline]] static auto measure_pack(pore_network<Real, Dim> const& net, Real const* place,
+    [[gnu::always_inline]] static auto measure_pack(pore_network<Real, Dim> const& net, Real const* particles,
                                                     std::size_t slot) noexcept {
         using lanes = pack<Real, width>;
-        auto const at = [&](std::size_t c) { return detail::load_bodies<Real, width>(place, net.corner[c].data() + slot); };
+        auto const at = [&](std::size_t c) {
+            return detail::load_particles<Real, width>(particles, net.corner[c].data() + slot);
+        };
         auto a = at(0), b = at(1), c = at(2);
         if constexpr (Dim == 2) {
             return measure_pore<lanes>({{a[0], a[1]}}, {{b[0], b[1]}}, {{c[0], c[1]}}, a[3], b[3], c[3]);
@@ -215,7 +219,8 @@ private:
         }
     }
 
-    static void store_forces(Real* to, shape_of<pack<Real, width>> const& shape, pack<Real, width> const& push) noexcept {
+    static void store_forces(Real* to, shape_of<pack<Real, width>> const& shape,
+                             pack<Real, width> const& push) noexcept {
         if constexpr (Dim == 2) {
             detail::store_pairs(to, shape.traction[0][0] * push, shape.traction[0][1] * push);
             detail::store_pairs(to + 2 * width, shape.traction[1][0] * push, shape.traction[1][1] * push);

@@ -14,8 +14,9 @@
 
 namespace lacuna {
 
-/// The few pores that a flow_source acts on directly, and what has come through each source. One after the other, in
-/// the order of the sources: the same bits for any number of threads.
+/// Exchange of fluid with the pores on which a flow_source acts directly, and the volume that each source has supplied.
+/// These few pores are treated one after the other, in fixed order: results are the same bits for any number of
+/// threads.
 template <class Real>
 class source_exchange {
 public:
@@ -25,7 +26,7 @@ public:
         Real pressure, volume, vapour; ///< before the pass over the pores: Pa, m^3, m^3
     };
 
-    /// \throws std::invalid_argument for a name given twice, a pore held twice.
+    /// \throws std::invalid_argument if two sources have the same name or hold the pressure of the same pore.
     template <int Dim>
     void build(pore_network<Real, Dim> const& net) {
         pores_.clear();
@@ -51,7 +52,7 @@ public:
 
     std::vector<fed_pore> const& pores() const noexcept { return pores_; }
 
-    /// To be called before the pass over the pores.
+    /// Stores the state of the fed pores; call it before the pass over the pores.
     template <int Dim>
     void remember(pore_network<Real, Dim> const& net) noexcept {
         for (auto& f : pores_) {
@@ -61,9 +62,9 @@ public:
         }
     }
 
-    /// After the pass over the pores: adds the volume that a rate brings within dt [s], and the one that it takes to
-    /// hold a pressure; enters it, and what came through the drained throats, into the sources.
-    /// \param pores, throats sums of the pass, which this corrects
+    /// Adds to the fed pores the volume that a rate supplies in dt [s], or that is needed to hold a pressure. Adds
+    /// these volumes, and the inflow through drained throats, to the sources. Call it after the pass over the pores.
+    /// \param pores, throats sums of the pass; corrected here
     template <int Dim>
     void apply(pore_network<Real, Dim>& net, pore_constants<Real> const& fluid, Real dt, bool flows,
                pore_sums<Real>& pores, throat_sums<Real>& throats) noexcept {
@@ -95,7 +96,7 @@ public:
             pores.content += fed;
             pores.pressure_work += (after - before) * (volume - f.volume);
             pores.vapour_work += after * (left - f.vapour) - before * (vapour - f.vapour);
-            // What came before into the same pore did its work against the pressure that is now known.
+            // Volume that other sources fed into this pore did its work against the final pressure, known only now.
             throats.reservoir_work += after * (sum + fed) - before * sum;
             sum += fed;
             throats.inflow += fed;
@@ -104,15 +105,16 @@ public:
         count(net, dt, flows);
     }
 
-    /// What has come through drained throats within dt [s]; apply() does it itself.
+    /// Adds the inflow through drained throats in dt [s] to the sources. apply() calls it.
     template <int Dim>
     void count(pore_network<Real, Dim>& net, Real dt, bool flows) noexcept {
         if (!flows) return;
         for (std::size_t t = net.interior_throats; t < net.open_throats(); ++t)
-            if (!net.inactive[t]) net.sources[std::size_t(net.throat_source(t))].volume += double(net.flow[t]) * double(dt);
+            if (!net.inactive[t])
+                net.sources[std::size_t(net.throat_source(t))].volume += double(net.flow[t]) * double(dt);
     }
 
-    /// At the end of a step of dt [s] in which fluid flowed.
+    /// Updates the mean rates of the sources at the end of a step of dt [s] in which fluid flowed.
     template <int Dim>
     void close(pore_network<Real, Dim>& net, Real dt) noexcept {
         for (std::size_t s = 0; s < mark_.size(); ++s) {
@@ -128,7 +130,7 @@ public:
 
 private:
     std::vector<fed_pore> pores_;
-    std::vector<double> mark_; // volumes of the sources when the last step with flow ended
+    std::vector<double> mark_; // volume of each source at the end of the last step with flow
 };
 
 } // namespace lacuna

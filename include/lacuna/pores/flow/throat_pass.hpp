@@ -22,29 +22,30 @@
 namespace lacuna {
 
 LACUNA_BEGIN_PACKS
-/// The passes over the throats that fluid can pass, and what they read besides the network. A pack is passed over when all
-/// of its throats are skipped; a skipped throat in another pack has both its ends in one pore.
+/// The passes over the interior and drained throats, and the tables that they read besides the network. A pack is
+/// omitted if all its throats are skipped. In other packs a skipped throat has both ends at the same pore, so that
+/// nothing flows.
 ///
-/// A throat in space is the facet between three particles. Its aperture is the mean of what the law says of its three
-/// pairs; a law of the section (throat_section_law) sees the facet itself.
+/// A throat in space is the facet between three particles. Its aperture is the mean of the law's apertures of its three
+/// pairs. A law of the section (throat_section_law) gets the facet itself.
 template <class Real, int Dim>
 class throat_table {
 public:
     static constexpr int width = native_width<Real>;
-    /// Pairs of particles that a throat lies between.
+    /// Number of pairs of particles that a throat lies between.
     static constexpr std::size_t pairs = Dim == 2 ? 1 : 3;
     /// Packs that one thread handles at a time.
     static constexpr std::size_t chunk_packs = 128;
 
-    /// \param conductivity k of eq. 14, m/(s Pa)
+    /// \param conductivity k of the paper's eq. 14, m/(s Pa); see flow_parameters::conductivity
     void build(pore_network<Real, Dim> const& net, Real conductivity) {
         std::size_t const packs = (net.open_throats() + width - 1) / width, slots = packs * width;
         far_.assign(slots, 0);
         factor_.assign(slots, Real(0));
         for (std::size_t t = 0; t < net.open_throats(); ++t) factor_[t] = conductivity / net.length[t];
         for (auto& force : force_) force.assign(slots, 0);
-        every_.resize(packs);
-        for (std::size_t p = 0; p < packs; ++p) every_[p] = std::int32_t(p);
+        all_packs_.resize(packs);
+        for (std::size_t p = 0; p < packs; ++p) all_packs_[p] = std::int32_t(p);
         in_order_ = true;
         for (std::size_t t = 0; t < net.interior_throats; ++t)
             in_order_ = in_order_ && net.throat_pore[0][t] < net.throat_pore[1][t] &&
@@ -52,65 +53,67 @@ public:
         collect_active(net);
     }
 
-    /// Takes over which throats are skipped.
+    /// Lists the packs with a throat that is not skipped; call it when net.inactive has changed.
     void collect_active(pore_network<Real, Dim> const& net) {
-        active_.clear();
+        active_packs_.clear();
         throats_ = 0;
-        for (std::size_t p = 0; p < every_.size(); ++p) {
+        for (std::size_t p = 0; p < all_packs_.size(); ++p) {
             std::size_t const before = throats_;
             for (std::size_t t = p * width; t < (p + 1) * width; ++t) {
-                // Between a pore and itself nothing flows.
+                // A skipped throat leads from a pore to itself: nothing flows.
                 bool const passes = t < net.open_throats() && !net.inactive[t];
                 far_[t] = net.throat_pore[passes && t < net.interior_throats ? 1 : 0][t];
                 throats_ += passes;
             }
-            if (throats_ > before) active_.push_back(std::int32_t(p));
+            if (throats_ > before) active_packs_.push_back(std::int32_t(p));
         }
     }
-    /// Whether side 0 is that of the lower pore, and throats come in the order of these pores, as make_pore_network()
-    /// has them; but for drained throats.
+    /// Whether in all interior throats side 0 is the lower-numbered pore, and throats ascend with that pore.
+    /// make_pore_network() creates this order.
     bool in_order() const noexcept { return in_order_; }
-    /// Throats that are not skipped.
+    /// Number of throats that are not skipped.
     std::size_t active_throats() const noexcept { return throats_; }
 
-    /// \param lookup lookup(particle i, particle j): place of the pair's normal force; 0 if there is none
+    /// \param lookup callable (particle i, particle j) -> index of the pair's normal force; 0 if there is no such pair
     template <class Lookup>
     void map(pore_network<Real, Dim> const& net, Lookup const& lookup) {
         for (std::size_t t = 0; t < net.open_throats(); ++t)
             for (std::size_t k = 0; k < pairs; ++k)
-                force_[k][t] = std::uint32_t(lookup(net.throat_particle[k][t], net.throat_particle[(k + 1) % std::size_t(Dim)][t]));
+                force_[k][t] = std::uint32_t(
+                    lookup(net.throat_particle[k][t], net.throat_particle[(k + 1) % std::size_t(Dim)][t]));
     }
 
-    /// Packs of a pass: those with a throat that is not skipped, or all.
-    std::vector<std::int32_t> const& packs(bool all) const noexcept { return all ? every_ : active_; }
+    /// Packs of a pass: all, or those with a throat that is not skipped.
+    std::vector<std::int32_t> const& packs(bool all) const noexcept { return all ? all_packs_ : active_packs_; }
     int chunks(bool all) const noexcept { return int((packs(all).size() + chunk_packs - 1) / chunk_packs); }
-    /// The first from `from` on of the packs with flow that begins at `pore` or a later one, or has a drained throat;
-    /// where in_order().
+    /// Index in packs(false), from `from` on, of the first pack that begins at `pore` or a later one, or has a drained
+    /// throat. Requires in_order().
     std::size_t first_beyond(pore_network<Real, Dim> const& net, std::size_t pore, std::size_t from) const noexcept {
         auto const within = [&](std::size_t slot) {
             return slot + width <= net.interior_throats && std::size_t(net.throat_pore[0][slot]) < pore;
         };
-        return std::size_t(std::partition_point(active_.begin() + std::ptrdiff_t(from), active_.end(),
+        return std::size_t(std::partition_point(active_packs_.begin() + std::ptrdiff_t(from), active_packs_.end(),
                                                 [&](std::int32_t p) { return within(std::size_t(p) * width); }) -
-                           active_.begin());
+                           active_packs_.begin());
     }
 
-    /// Eq. 14 for the throats of one chunk.
-    /// \tparam Moves first takes the apertures anew from the gaps and the pairs' normal forces
-    /// \tparam Flows computes the flows from the network's pressures; else apertures and conductances alone, of all
-    ///         throats
-    /// \param place records of the particles; \param normal_forces of the pairs, the first is 0; used if Moves
+    /// The paper's eq. 14 for the throats of one chunk.
+    /// \tparam Moves whether to update apertures first, from the gaps and normal forces of the pairs
+    /// \tparam Flows whether to compute flows from the network's pressures, for throats that are not skipped. Otherwise
+    ///         only apertures and conductances are computed, for all throats.
+    /// \param particles records of the particles; used if Moves
+    /// \param normal_forces of the pairs, N, the first is 0; used if Moves
     template <bool Moves, bool Flows, class Aperture>
-    void pass(int chunk, pore_network<Real, Dim>& net, Real const* place, Real const* normal_forces,
+    void pass(int chunk, pore_network<Real, Dim>& net, Real const* particles, Real const* normal_forces,
               typename Aperture::parameters const& parameters) const noexcept {
         std::size_t const first = std::size_t(chunk) * chunk_packs;
-        pass<Moves, Flows, Aperture>(first, std::min(first + chunk_packs, packs(!Flows).size()), net, place, normal_forces,
-                                     parameters);
+        pass<Moves, Flows, Aperture>(first, std::min(first + chunk_packs, packs(!Flows).size()), net, particles,
+                                     normal_forces, parameters);
     }
-    /// The same for those of packs()[first, end).
+    /// The same for packs(!Flows)[first, end).
     template <bool Moves, bool Flows, class Aperture>
     [[gnu::noinline, gnu::flatten]] void pass(std::size_t first, std::size_t end, pore_network<Real, Dim>& net,
-                                              Real const* place, Real const* normal_forces,
+                                              Real const* particles, Real const* normal_forces,
                                               typename Aperture::parameters const& aperture_parameters) const noexcept {
         using lanes = pack<Real, width>;
         auto const parameters = aperture_parameters;
@@ -121,11 +124,12 @@ public:
             std::size_t const slot = std::size_t(list[n]) * width;
             lanes conductance;
             if constexpr (Moves) {
-                // The other particles are those of throats before, most of them.
+                // Earlier throats have already loaded most of the other particles.
                 if (ahead > 0 && n + ahead < list.size())
-                    prefetch_records<width>(place, net.throat_particle[1].data() + std::size_t(list[n + ahead]) * width,
-                                         body_column<Real>::stride);
-                auto [aperture, opening] = open<Aperture>(net, slot, place, normal_forces, parameters);
+                    prefetch_records<width>(particles,
+                                            net.throat_particle[1].data() + std::size_t(list[n + ahead]) * width,
+                                            body_column<Real>::stride);
+                auto [aperture, opening] = compute_opening<Aperture>(net, slot, particles, normal_forces, parameters);
                 conductance = lanes::load(factor_.data() + slot) * opening;
                 aperture.store(net.aperture.data() + slot);
                 conductance.store(net.conductance.data() + slot);
@@ -142,17 +146,18 @@ public:
         }
     }
 
-    /// Energies of the flows of one chunk with the present pressures. A step's are those with the mean of old and new
-    /// pressures: half of what this adds before it, and half of what it adds after it.
+    /// Adds half of the energies of the flows of one chunk, with the present pressures. The energies of a step use the
+    /// mean of old and new pressures: call this once before and once after the pressures change.
     [[gnu::noinline, gnu::flatten]] void add_up(int chunk, pore_network<Real, Dim> const& net, Real time_step,
                                                 throat_sums<Real>& sums) const noexcept {
         using lanes = pack<Real, width>;
         lanes dissipation(Real(0)), work(Real(0)), inflow(Real(0)), gross(Real(0));
         lanes dt(time_step * Real(0.5)), zero(Real(0));
         Real const* pressure = net.pressure.data();
-        std::size_t const first = std::size_t(chunk) * chunk_packs, end = std::min(first + chunk_packs, active_.size());
+        std::size_t const first = std::size_t(chunk) * chunk_packs,
+                          end = std::min(first + chunk_packs, active_packs_.size());
         for (std::size_t n = first; n < end; ++n) {
-            std::size_t const slot = std::size_t(active_[n]) * width;
+            std::size_t const slot = std::size_t(active_packs_[n]) * width;
             lanes moved = lanes::load(net.flow.data() + slot) * dt;
             lanes near = detail::gather<Real, width>(pressure, net.throat_pore[0].data() + slot);
             lanes far = detail::gather<Real, width>(pressure, far_.data() + slot);
@@ -171,38 +176,40 @@ public:
     }
 
 private:
-    /// Of the throats of a pack: their apertures, m, and what their conductances are k / l times of.
-    struct opened {
+    /// Apertures of the throats of a pack, m, and the factor `opening` of their conductances (k / l) opening: a^3, m^3,
+    /// or that of the law of the section.
+    struct throat_opening {
         pack<Real, width> aperture, opening;
     };
     template <class Aperture>
-    [[gnu::always_inline]] opened open(pore_network<Real, Dim> const& net, std::size_t slot, Real const* place, Real const* normal_forces,
-                                       typename Aperture::parameters const& parameters) const noexcept {
+    [[gnu::always_inline]] throat_opening
+    compute_opening(pore_network<Real, Dim> const& net, std::size_t slot, Real const* particles,
+                    Real const* normal_forces, typename Aperture::parameters const& parameters) const noexcept {
         using lanes = pack<Real, width>;
         if constexpr (throat_section_law<Aperture>) {
             static_assert(Dim == 3, "flow: a throat has a section in space alone (Dim = 3)");
-            auto a = detail::load_bodies<Real, width>(place, net.throat_particle[0].data() + slot);
-            auto b = detail::load_bodies<Real, width>(place, net.throat_particle[1].data() + slot);
-            auto c = detail::load_bodies<Real, width>(place, net.throat_particle[2].data() + slot);
+            auto a = detail::load_particles<Real, width>(particles, net.throat_particle[0].data() + slot);
+            auto b = detail::load_particles<Real, width>(particles, net.throat_particle[1].data() + slot);
+            auto c = detail::load_particles<Real, width>(particles, net.throat_particle[2].data() + slot);
             auto facet = measure_facet<lanes>({{a[0], a[1], a[2]}}, {{b[0], b[1], b[2]}}, {{c[0], c[1], c[2]}}, a[3],
                                               b[3], c[3]);
             lanes radius = max(facet.hydraulic_radius, lanes(Real(0)));
             return {radius, Aperture::opening(parameters, facet.void_area, radius)};
         } else {
-            lanes aperture = aperture_of_pair<Aperture>(net, 0, slot, place, normal_forces, parameters);
+            lanes aperture = aperture_of_pair<Aperture>(net, 0, slot, particles, normal_forces, parameters);
             if constexpr (pairs > 1) {
                 for (std::size_t k = 1; k < pairs; ++k)
-                    aperture += aperture_of_pair<Aperture>(net, k, slot, place, normal_forces, parameters);
+                    aperture += aperture_of_pair<Aperture>(net, k, slot, particles, normal_forces, parameters);
                 aperture *= lanes(Real(1) / Real(pairs));
             }
             return {aperture, aperture * aperture * aperture};
         }
     }
-    /// By the aperture law, from the gap and the normal force of the throat's pair number k.
+    /// Aperture by the law, from the gap and the normal force of the throat's pair number k, m.
     template <class Aperture>
-    [[gnu::always_inline]] pack<Real, width> aperture_of_pair(pore_network<Real, Dim> const& net, std::size_t k,
-                                                              std::size_t slot, Real const* place, Real const* normal_forces,
-                                                              typename Aperture::parameters const& p) const noexcept {
+    [[gnu::always_inline]] pack<Real, width>
+    aperture_of_pair(pore_network<Real, Dim> const& net, std::size_t k, std::size_t slot, Real const* particles,
+                     Real const* normal_forces, typename Aperture::parameters const& p) const noexcept {
         using lanes = pack<Real, width>;
         using rec = record<Real>;
         rec difference_and_sum(Real(-1));
@@ -210,7 +217,8 @@ private:
         std::int32_t const *i = net.throat_particle[k].data() + slot,
                            *j = net.throat_particle[(k + 1) % std::size_t(Dim)].data() + slot;
         auto pair = transpose_load<Real, width>([&](int lane) {
-            return detail::load_body(place, j[lane]) + detail::load_body(place, i[lane]) * difference_and_sum;
+            return detail::load_particle(particles, j[lane]) +
+                   detail::load_particle(particles, i[lane]) * difference_and_sum;
         });
         lanes squared = pair[0] * pair[0] + pair[1] * pair[1];
         if constexpr (Dim == 3) squared += pair[2] * pair[2];
@@ -219,7 +227,7 @@ private:
         return Aperture::aperture(p, normal, gap);
     }
 
-    /// Of a pack with drained throats: the pressures at its far ends.
+    /// Pressures at the far ends of a pack with drained throats: those of the reservoirs there.
     [[gnu::noinline]] static pack<Real, width> with_reservoirs(pore_network<Real, Dim> const& net, std::size_t slot,
                                                                pack<Real, width> far) noexcept {
         for (int k = 0; k < width; ++k) {
@@ -231,10 +239,10 @@ private:
 
     std::size_t throats_ = 0;
     bool in_order_ = true;
-    std::vector<std::int32_t> far_; // pore at the far end, that at the near one where nothing flows
-    std::array<aligned_vector<std::uint32_t>, pairs> force_; // places of normal forces
-    aligned_vector<Real> factor_; // k / l, 0 of what fills up the last pack
-    std::vector<std::int32_t> every_, active_;
+    std::vector<std::int32_t> far_; // pore at the far end; the pore at the near end if nothing flows
+    std::array<aligned_vector<std::uint32_t>, pairs> force_; // indices of normal forces
+    aligned_vector<Real> factor_; // k / l; 0 for the padding of the last pack
+    std::vector<std::int32_t> all_packs_, active_packs_;
 };
 LACUNA_END_PACKS
 

@@ -11,9 +11,10 @@
 
 namespace lacuna {
 
-/// Forces on the corners of a pore for 1 Pa in it, N: the derivatives of its volume, as long as that is above its least
-/// value. Displacements u change its pressure by -K_f / V_p sum(force . u).
-/// \param net with particles, not bare; \param thickness m, 1 in space; \param points m; \param radii m
+/// Forces on the corners of a pore per pressure of 1 Pa, N: the derivatives of its volume by the positions of the
+/// corners, while the volume is above its least value. Displacements u of the corners change the pressure by
+/// -K_f / V_p sum(force . u).
+/// \param net not bare; \param thickness m, 1 in space; \param points centres, m; \param radii m
 template <class Real, int Dim>
 std::array<vec<Real, Dim>, std::size_t(Dim) + 1> pore_tractions(pore_network<Real, Dim> const& net, Real thickness,
                                                                 std::size_t pore, points_view<Real, Dim> points,
@@ -31,7 +32,7 @@ std::array<vec<Real, Dim>, std::size_t(Dim) + 1> pore_tractions(pore_network<Rea
 }
 
 /// Energy stored in the compressed fluid, sum of V p^2 / 2 K_f, J.
-/// \param net whose padding have no pressure; \param bulk_modulus K_f, Pa
+/// \param net the pressure of its padding must be 0; \param bulk_modulus K_f, Pa
 template <class Real, int Dim>
 Real storage_energy(pore_network<Real, Dim> const& net, double bulk_modulus) noexcept {
     using lanes = pack<Real, native_width<Real>>;

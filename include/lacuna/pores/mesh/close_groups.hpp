@@ -83,7 +83,8 @@ public:
         if (!(many <= 64)) {
             for (std::size_t c = 0; c < cells_.size(); ++c) {
                 bool meets = true;
-                for (std::size_t a = 0; a < from.size(); ++a) meets = meets && cells_[c][a] >= from[a] && cells_[c][a] <= to[a];
+                for (std::size_t a = 0; a < from.size(); ++a)
+                    meets = meets && cells_[c][a] >= from[a] && cells_[c][a] <= to[a];
                 if (meets) look(c);
             }
             return;
@@ -157,9 +158,9 @@ private:
 /// a simplex. Limits of +-1e300 if the simplex is so flat that rounding hides the sphere.
 /// \return lower and upper corner, m
 template <class Real, int Dim>
-std::array<std::array<double, std::size_t(Dim)>, 2> orthogonal_box(std::array<std::int32_t, std::size_t(Dim) + 1> const& s,
-                                                                   points_view<Real, Dim> points, Real const* radii,
-                                                                   double largest_radius) noexcept {
+std::array<std::array<double, std::size_t(Dim)>, 2>
+orthogonal_box(std::array<std::int32_t, std::size_t(Dim) + 1> const& s, points_view<Real, Dim> points,
+               Real const* radii, double largest_radius) noexcept {
     using point = vec<double, Dim>;
     auto const at = [&](std::size_t c) {
         point x;

@@ -115,7 +115,8 @@ scaled_particles<Dim> scale_particles(points_view<Real, Dim> points, Real const*
     auto const apart = [&](std::int32_t i, std::int32_t j) {
         double most = 0;
         for (int axis = 0; axis < Dim; ++axis)
-            most = std::max(most, std::fabs(double(points(std::size_t(i), axis)) - double(points(std::size_t(j), axis))));
+            most =
+                std::max(most, std::fabs(double(points(std::size_t(i), axis)) - double(points(std::size_t(j), axis))));
         return most * scale;
     };
 
@@ -160,7 +161,8 @@ weighted_sites<Dim> make_sites(std::vector<std::int32_t> const& list, points_vie
     weighted_sites<Dim> sites;
     for (std::size_t k = 0; k < list.size(); ++k) {
         scaled_point<Dim> x;
-        for (int axis = 0; axis < Dim; ++axis) x[std::size_t(axis)] = scaled(double(points(std::size_t(list[k]), axis)));
+        for (int axis = 0; axis < Dim; ++axis)
+            x[std::size_t(axis)] = scaled(double(points(std::size_t(list[k]), axis)));
         sites.x.push_back(x);
         sites.radius.push_back(scaled(double(radii[list[k]])));
         sites.shift.push_back(-shift(k) * scale * scale);
@@ -187,10 +189,12 @@ void require_particles(points_view<Real, Dim> points, Real const* radii) {
     for (std::size_t i = 0; i < points.size(); ++i) {
         for (int axis = 0; axis < Dim; ++axis) {
             double const x = double(points(i, axis));
-            if (!(std::fabs(x) <= most)) refuse_it("position", i, x, std::isfinite(x) ? "from -1e70 to 1e70 m" : "finite");
+            if (!(std::fabs(x) <= most))
+                refuse_it("position", i, x, std::isfinite(x) ? "from -1e70 to 1e70 m" : "finite");
         }
         double const r = double(radii[i]);
-        if (!(r >= 0 && r <= most)) refuse_it("radius", i, r, std::isfinite(r) && r > 0 ? "at most 1e70 m" : ">= 0 and finite");
+        if (!(r >= 0 && r <= most))
+            refuse_it("radius", i, r, std::isfinite(r) && r > 0 ? "at most 1e70 m" : ">= 0 and finite");
     }
 }
 

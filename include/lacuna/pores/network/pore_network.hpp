@@ -93,7 +93,8 @@ struct pore_network {
     /// State that a run changes. It is read into a network of the same shape.
     template <class Archive>
     void serialize(Archive& ar) {
-        ar(volume, old_volume, pressure, vapour, aperture, conductance, flow, fixed_length{drained_pressure}, fixed_length{inactive});
+        ar(volume, old_volume, pressure, vapour, aperture, conductance, flow, fixed_length{drained_pressure},
+           fixed_length{inactive});
         for (auto& source : sources) ar(source.value, source.volume, source.rate);
     }
 };

@@ -129,7 +129,8 @@ void transfer_throats(pore_network<Real, 2> const& from, pore_network<Real, 2>& 
             now.value = old.value;
             for (std::size_t t = to.interior_throats; now.kind == flow_source_kind::pressure && t < to.open_throats();
                  ++t)
-                if (to.throat_source(t) == std::int32_t(s)) to.drained_pressure[t - to.interior_throats] = Real(now.value);
+                if (to.throat_source(t) == std::int32_t(s))
+                    to.drained_pressure[t - to.interior_throats] = Real(now.value);
         }
 }
 
@@ -160,8 +161,8 @@ void keep_sizes(pore_network<Real, 2> const& from, pore_network<Real, 2>& to) {
 ///        throats that are also in `from`, and the value, volume and rate of sources of the same name.
 /// \param points centres, m; \param bulk_modulus K_f, Pa; \param minimum_pressure Pa
 template <class Real>
-transferred_fluid transfer_fluid(pore_network<Real, 2> const& from, pore_network<Real, 2>& to, points_view<Real, 2> points,
-                          double bulk_modulus, double minimum_pressure) {
+transferred_fluid transfer_fluid(pore_network<Real, 2> const& from, pore_network<Real, 2>& to,
+                                 points_view<Real, 2> points, double bulk_modulus, double minimum_pressure) {
     using namespace detail;
     constexpr auto none = std::size_t(-1);
     transferred_fluid report;
@@ -226,8 +227,8 @@ transferred_fluid transfer_fluid(pore_network<Real, 2> const& from, pore_network
             from.throats_of.for_each(p.pore, [&](std::size_t t, int side) {
                 auto const other = from.throat_pore[std::size_t(1 - side)][t];
                 if (other < 0) return;
-                auto const next =
-                    new_of_old[std::size_t(other)] == none ? std::size_t(other) : offset + new_of_old[std::size_t(other)];
+                auto const next = new_of_old[std::size_t(other)] == none ? std::size_t(other)
+                                                                         : offset + new_of_old[std::size_t(other)];
                 if (find_root(up, next) == find_root(up, p.pore)) return;
                 unite(up, p.pore, next);
                 moved = true;
