@@ -1,8 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# sh cmake/dependencies.sh PROGRAM|check|coverage|nightly [more Debian packages]: installs what is missing on Debian or Ubuntu, as root or
-# through sudo; does nothing when all is there. LACUNA_SKIP_DEPENDENCIES=1 skips it.
+# sh cmake/dependencies.sh PROGRAM|documentation|check|coverage|nightly [more Debian packages]: installs the packages that are
+# missing on Debian or Ubuntu, as root or through sudo; does nothing when all are there. LACUNA_SKIP_DEPENDENCIES=1 skips it.
 set -eu
 
 case "${1:-}" in
@@ -21,10 +21,13 @@ uniaxial)
 poroelasticity)
     wanted="g++ make cmake libeigen3-dev libnanoflann-dev libqhull-dev libcairo2-dev libcli11-dev"
     ;;
+documentation)
+    wanted="g++ make cmake libeigen3-dev libnanoflann-dev doxygen libjs-mathjax"
+    ;;
 check)
     wanted="g++ make cmake libeigen3-dev libnanoflann-dev libqhull-dev libcairo2-dev libcli11-dev
         libtomlplusplus-dev nlohmann-json3-dev libcereal-dev libnlopt-dev zlib1g-dev catch2 libbenchmark-dev
-        python3-vtk9 doxygen"
+        python3-vtk9 doxygen libjs-mathjax"
     # Ubuntu has no packages of these names. Without them a test looks at no report in a browser, another tries no newer compiler.
     if [ -r /etc/os-release ] && grep -q '^ID=debian' /etc/os-release; then wanted="$wanted chromium clang-19"; fi
     ;;
@@ -38,7 +41,8 @@ nightly)
     exec sh "$0" check clang libomp-dev "$@"
     ;;
 *)
-    echo "usage: sh cmake/dependencies.sh cartilage|lacuna-run|uniaxial|poroelasticity|check|coverage|nightly [more Debian packages]" >&2
+    echo "usage: sh cmake/dependencies.sh cartilage|lacuna-run|uniaxial|poroelasticity|documentation|check|coverage|nightly" \
+        "[more Debian packages]" >&2
     exit 2
     ;;
 esac
