@@ -47,7 +47,7 @@ onload = async () => {
       --user-data-dir=${SCRATCH}/profile --allow-file-access-from-files --enable-logging=stderr
       "--host-resolver-rules=MAP * ~NOTFOUND" --virtual-time-budget=600000 --window-size=1400,1000
       --dump-dom "file://${SCRATCH}/frame.html"
-    RESULT_VARIABLE result OUTPUT_VARIABLE out ERROR_VARIABLE err TIMEOUT 1500)
+    RESULT_VARIABLE result OUTPUT_VARIABLE out ERROR_VARIABLE err TIMEOUT 1200)
   if(NOT out MATCHES "<pre id=\"found\">found (.*) end</pre>")
     message(FATAL_ERROR "no measurement: ${result}\n${err}")
   endif()
