@@ -79,11 +79,11 @@ TEST_CASE("LAMMPS data files of other hands", "[files]") {
              {"cr.data", ""},
              {"sci.data", ""},
              {"inline.data", ""},
-             {"image.data", ":16: image flag = 1: must be 0: the box is read as open along x; reading it as periodic unwraps positions"},
+             {"image.data", ":16: image flag = 1: must be 0: the box is read as non-periodic along x; reading it as periodic unwraps positions"},
              {"bare.data", ":12: Atoms = \"\": must be followed by \"# sphere\" or \"# bpm/sphere\""},
              {"hybrid.data", ":12: Atoms = \"hybrid sphere bond\": must be followed by \"# sphere\" or \"# bpm/sphere\""},
              {"triclinic.data", ":11: xy xz yz = 0.5: must be 0: boxes here have right angles"},
-             {"units_lj.data", ":1: units = \"lj\": must be si, cgs, micro or nano: numbers without dimension are no lengths"},
+             {"units_lj.data", ":1: units = \"lj\": must be si, cgs, micro or nano: lj units have no dimensions"},
              {"twice.data", ":21: Bonds = 2 1: must be a pair that has no bond yet"},
              {"typelabels.data", ""},
              {"bom.data", ""},
@@ -91,7 +91,7 @@ TEST_CASE("LAMMPS data files of other hands", "[files]") {
              {"noeol.data", ""},
              {"spheretwocols.data", ":14: Atoms = 8 words: must be 7 or 10"},
              {"bpmwithsphere.data", ":14: Atoms = 7 words: must be 8 or 11"},
-             {"notitle.data", ":1: title = \"3 atoms\": must be a title: the first line of a data file is no part of its header"},
+             {"notitle.data", ":1: title = \"3 atoms\": must be a title: the first line of a data file is not part of its header"},
              {"capsules.data", ":18 = \"Capsules\": must be a section of spheres"},
              {"extra.data", ""},
              {"coeffs.data", ""},
@@ -101,7 +101,7 @@ TEST_CASE("LAMMPS data files of other hands", "[files]") {
              {"inf.data", ":14: position = inf: must be finite"},
              {"bondtype.data", ":20: bond type = 7: must be a whole number from 1 to 1"},
              {"bigid.data", ""},
-             {"atomsbondsoneline.data", ":3 = \"atoms 2 bonds\": must be a line of a header, as \"12 atoms\""},
+             {"atomsbondsoneline.data", ":3 = \"atoms 2 bonds\": must be a line of a header, such as \"12 atoms\""},
              {"nonascii_id.data", ":14: id = \"\xEF\xBC\x91\": must be a number; it has the character U+FF11"},
              {"typegap.data", ":15: atom type = 9: must be a whole number from 1 to 1"},
              {"outsidebox.data", ":16: position = 99.5: must be within the box, from 0 to 4 along x"},
@@ -123,7 +123,7 @@ TEST_CASE("LAMMPS data files of other hands", "[files]") {
 
 TEST_CASE("CSV files of other programs", "[files]") {
     std::string const many = ": radius, material, position.x, position.y, velocity.x, velocity.y, spin, density; "
-                             "leave others out, particles are numbered by rows";
+                             "leave out all others, particles are numbered by rows";
     // Those that are read have one or two discs of radius 0.5 at x = 0 and 1.
     for (auto const& [name, rows, refusal] : {
              std::tuple<std::string, std::size_t, std::string>{"bom.csv", 2, ""},
@@ -148,7 +148,7 @@ TEST_CASE("CSV files of other programs", "[files]") {
              {"innerquote.csv", 0, ":2 = \"\"0\": must be a cell whose quotes are closed"},
              {"leadblank.csv", 2, ""},
              {"3din2d.csv", 1, ""},
-             {"dup.csv", 0, ":4: position = that of line 3: must be another: two particles cannot be at one place"},
+             {"dup.csv", 0, ":4: position = that of line 3: must be another: two particles cannot have the same position"},
              {"nbsp.csv", 0, ":2: radius = \"0.5\xC2\xA0\": must be a number; it has a no-break space, U+00A0"},
              {"thousand.csv", 0, ":2: radius = \"1'000.5\": must be a number without marks between thousands"},
              {"minus.csv", 0, ":3: position.x = \"\xE2\x88\x92" "1\": must be a number; it has a minus sign that is no hyphen, U+2212"}}) {
@@ -196,7 +196,7 @@ TEST_CASE("LAMMPS's units are converted to SI to the nearest numbers", "[files]"
 
 TEST_CASE("a LAMMPS box that is periodic: image flags, bonds through its sides, its period", "[files]") {
     std::string const through = "f:19: Bonds = 3 1: must be a pair that is nearest within the box: through its sides they are 1 m apart, "
-                                "within it 2 m; such a box is periodic, and is here read as open";
+                                "within it 2 m; such a box is periodic, but is read as non-periodic";
     REQUIRE(why([&] { parse_lammps_data<3>(ring(""), "f"); }) == through);
     REQUIRE(why([&] { parse_lammps_data<2>(ring(" 0 0 0"), "f"); }) == through);
     auto const closed = parse_lammps_data<2>(ring(""), "f", {true, false});
@@ -210,7 +210,7 @@ TEST_CASE("a LAMMPS box that is periodic: image flags, bonds through its sides, 
     REQUIRE(why([] { parse_lammps_data<2>(replaced(ring(""), "0 3 xlo xhi\n", ""), "f", {true, false}); }) ==
             "f:10: xlo xhi = (missing): must be given in the header: along this axis the box is periodic");
     REQUIRE(why([] { parse_lammps_data<2>(ring(" 0 1 0"), "f", {true, false}); }) ==
-            "f:13: image flag = 1: must be 0: the box is read as open along y; reading it as periodic unwraps positions");
+            "f:13: image flag = 1: must be 0: the box is read as non-periodic along y; reading it as periodic unwraps positions");
     REQUIRE(why([] { parse_lammps_data<2>(ring(" 0 0 1"), "f", {true, true}); }) == "f:13: image flag = 1: must be 0 in the plane");
 
     // A box that is just large enough for the centres of two that touch is no sign of a bond through its sides.
@@ -242,14 +242,14 @@ TEST_CASE("lines of a LAMMPS header that are wrong, or that no sphere can honour
     REQUIRE(with("2 atoms") == "f:4 = \"atoms\": must be given once");
     REQUIRE(with("2 angles") == "f:4: angles = 2: must be 0: particles here are spheres with bonds");
     REQUIRE(with("2 bodies") == "f:4: bodies = 2: must be 0: particles here are spheres with bonds");
-    REQUIRE(with("2 atom type") == "f:4 = \"atom type\": must be a line of a header, as \"12 atoms\" (did you mean \"atom types\"?)");
+    REQUIRE(with("2 atom type") == "f:4 = \"atom type\": must be a line of a header, such as \"12 atoms\" (did you mean \"atom types\"?)");
     REQUIRE(with("1 0 0 avec") == "f:4 = \"avec\": must be xlo xhi and so on: boxes here have right angles");
     REQUIRE(with("1 -1 xlo xhi") == "f:4: xlo xhi = 1 -1: must be a lower and a higher bound");
     REQUIRE(with("1 xlo xhi") == "f:4: xlo xhi = 1 numbers: must be 2");
-    REQUIRE(with("1 x xlo xhi") == "f:4 = \"x xlo xhi\": must be a line of a header, as \"12 atoms\"");
+    REQUIRE(with("1 x xlo xhi") == "f:4 = \"x xlo xhi\": must be a line of a header, such as \"12 atoms\"");
     REQUIRE(why([] { parse_lammps_data<3>("t\n\n0 atoms\n", "f"); }) == "f: atoms = 0: must be at least 1");
     REQUIRE(why([] { parse_lammps_data<3>(data_file("t", "2 atoms\n", "1 1 1 1 0 0 0\n2 1 2 1 0 0 0\n"), "f"); }) ==
-            "f:8: position = that of line 7: must be another: two particles cannot be at one place");
+            "f:8: position = that of line 7: must be another: two particles cannot have the same position");
     REQUIRE(why([] { parse_lammps_data<3>(data_file("t", "1 atoms\n", "1 1 1 1 0 0 0\n", "\nMasses\n\n1 0\n"), "f"); }) ==
             "f:11: mass = 0: must be > 0");
 }
@@ -288,19 +288,19 @@ TEST_CASE("what a CSV file may mean in two ways is refused", "[files]") {
     for (auto const& [text, message] : {
              std::pair<std::string, std::string>{"radius [mm],x,y\n1,0,0\n", "f:1 = \"radius [mm]\": must be in m"},
              {"radius,x,y,vx (km/h)\n1,0,0,1\n", "f:1 = \"vx (km/h)\": must be in m/s"},
-             {"r;x;y\n1,000;0;0\n", "f:2 = \"1,000\": must be a number without a comma, which may be a decimal mark or one between thousands"},
+             {"r;x;y\n1,000;0;0\n", "f:2 = \"1,000\": must be a number without a comma, which may be a decimal comma or separate thousands"},
              {"r;x;y\n1,5;0.5;0\n", "f:2: radius = \"1,5\": must be a number with a decimal point, without commas"},
              {"r;x;y\n1.000,5;0;0\n", "f:2: radius = \"1.000,5\": must be a number with a decimal point, without commas"},
              {"r;x;y\n1,5;1,000,000;0\n", "f:2: position.x = \"1,000,000\": must be a number with a decimal point, without commas"},
              {"r,x,y\n0,5,1,5,2,5\n", "f:2 = 6 cells: must be as many as the heading has, 3; decimal commas need cells in quotes"},
-             {"r,x,y\n1;0;0\n", "f:2 = 1 cells: must be as many as the heading has, 3, parted by commas as there"},
-             {"0,0,0,1\n", "f:1 = \"0,0,0,1\": must be a heading that names the columns, as \"x,y,z,r\""},
-             {"# my packing\n0 0 1\n", "f:2 = \"0 0 1\": must be a heading that names the columns, as \"x,y,z,r\""},
-             {"r,d,x,y\n1,2,0,0\n", "f:1 = \"d\": must be a column that is not there yet"},
-             {"x,position.x,y,r\n1,1,0,1\n", "f:1 = \"position.x\": must be a column that is not there yet"},
+             {"r,x,y\n1;0;0\n", "f:2 = 1 cells: must be as many as the heading has, 3, separated by commas as there"},
+             {"0,0,0,1\n", "f:1 = \"0,0,0,1\": must be a heading that names the columns, such as \"x,y,z,r\""},
+             {"# my packing\n0 0 1\n", "f:2 = \"0 0 1\": must be a heading that names the columns, such as \"x,y,z,r\""},
+             {"r,d,x,y\n1,2,0,0\n", "f:1 = \"d\": must be a column that is given once"},
+             {"x,position.x,y,r\n1,1,0,1\n", "f:1 = \"position.x\": must be a column that is given once"},
              {"r,x,y\n1,\"0\"5,0\n", "f:2 = \"\"0\"5,0\": must be a cell that ends with its quotes"},
              {"r,x,y,rho\n1,0,0,0\n", "f:2: density = 0: must be > 0"},
-             {"r,x,y,material\n1,0,0,0\n2,0,0,0\n", "f:3: position = that of line 2: must be another: two particles cannot be at one place"}})
+             {"r,x,y,material\n1,0,0,0\n2,0,0,0\n", "f:3: position = that of line 2: must be another: two particles cannot have the same position"}})
         REQUIRE(why([&, &text = text] { parse_particle_csv<2>(text, "f"); }) == message);
     REQUIRE(why([] { parse_particle_csv<2>("r,x,y\n1,0,0\n", "f", {"bone", "gut"}); }) ==
             "f:1: material = (missing): must be given: there are 2 materials");

@@ -106,7 +106,7 @@ TEST_CASE("bad lines of a CSV file are refused by file, line, column, value and 
              std::pair<std::string, std::string>{"", "f = (empty): must be a heading that names the columns, and rows"},
              {"radius,material,position.x\n", "f:1: position.y = (missing): must be given"},
              {"radius,materiel,position.x,position.y\n", "f:1 = \"materiel\": must be a known column (did you mean \"material\"?)"},
-             {"radius,radius,position.x,position.y\n", "f:1 = \"radius\": must be a column that is not there yet"},
+             {"radius,radius,position.x,position.y\n", "f:1 = \"radius\": must be a column that is given once"},
              {head + "1,0,0\n", "f:2 = 3 cells: must be as many as the heading has, 4"},
              {head + "1,0,0,0\n\n1,0,1,x\n", "f:4: position.y = \"x\": must be a number"},
              {head + "1,0,0,1e999\n", "f:2: position.y = 1e999: must be finite"},
@@ -147,16 +147,16 @@ TEST_CASE("spheres of a LAMMPS data file", "[files]") {
 
 TEST_CASE("bad lines of a LAMMPS data file are refused by file, line, field, value and rule", "[files]") {
     for (auto const& [from, to, message] : {
-             std::array<std::string, 3>{"2 1 1 1.0 1000", "2 1 1 -1.0 1000", "f:19: diameter = -1.0: must be > 0: points are no particles"},
+             std::array<std::string, 3>{"2 1 1 1.0 1000", "2 1 1 -1.0 1000", "f:19: diameter = -1.0: must be > 0: particles cannot be points"},
              {"2 1 1 1.0 1000", "2 1 1 1.0 0", "f:19: density = 0: must be > 0"},
              {"2 1 1 1.0", "2 1 0 1.0", "f:19: atom type = 0: must be a whole number from 1 to 2"},
              {"2 1 1 1.0", "7 1 1 1.0", "f:19: id = 7: must be given once"},
-             {"1000 0 0 0 0 0 0", "1000 0 0 0 0 1 0", "f:19: image flag = 1: must be 0: the box is read as open along y; reading it as periodic unwraps positions"},
+             {"1000 0 0 0 0 0 0", "1000 0 0 0 0 1 0", "f:19: image flag = 1: must be 0: the box is read as non-periodic along y; reading it as periodic unwraps positions"},
              {"1000.5 1.25 0 0", "1000.5 1.25 0", "f:20: Atoms = 7 words: must be 8 or 11"},
              {"1000.5 1.25 0 0", "1000.5 1.25 zero 0", "f:20: position = \"zero\": must be a number"},
              {"3 0.1 0.2", "4 0.1 0.2", "f:24: id = 4: must be an atom of the section Atoms above"},
              {"1 1 3 2", "1 1 3 9", "f:28: atom = 9: must be an atom of the section Atoms above"},
-             {"1 1 3 2", "1 1 3 3", "f:28: atom = 3: must be another than the first"},
+             {"1 1 3 2", "1 1 3 3", "f:28: atom = 3: must be another atom than the first"},
              {"1 bonds", "2 bonds", "f: bonds = 1: must be as many as the header says, 2"},
              {"3 atoms", "4 atoms", "f: atoms = 3: must be as many as the header says, 4"},
              {"# bpm/sphere", "# atomic", "f:16: Atoms = \"atomic\": must be followed by \"# sphere\" or \"# bpm/sphere\""},

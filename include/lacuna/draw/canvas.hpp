@@ -25,11 +25,11 @@
 #include <lacuna/draw/color_scale.hpp>
 
 /// \file
-/// A page to draw on, and the two kinds of file that it can become. The only header that includes cairo.
+/// A page to draw on, and its output as a PNG or SVG file. The only header that includes cairo.
 
 namespace lacuna {
 
-/// A rectangle: in metres with y up, or on a page in pixels with y down.
+/// A rectangle, in metres with y up, or on a page in pixels with y down (`low` is its upper edge there).
 struct rectangle {
     double left = 0;
     double low = 0;
@@ -40,11 +40,11 @@ struct rectangle {
     constexpr double height() const noexcept { return high - low; }
 };
 
-/// Where a text stands relative to its point, horizontally; vertically the point is the middle of a line.
+/// Horizontal alignment of a text relative to its point. Vertically the point is in the middle of the line.
 enum class text_align { left, center, right };
 
-/// Drawing calls for one page. Points are page points, in pixels from the top left corner, y down; `page()` turns
-/// world points, in metres with y up, into page points.
+/// Drawing calls for one page. Points are page points, in pixels from the top left corner, y down. `page()` converts
+/// world points, in metres with y up, to page points.
 class canvas {
 public:
     using point = vec<double, 2>;
@@ -57,7 +57,7 @@ public:
     double width() const noexcept { return width_; }
     double height() const noexcept { return height_; }
 
-    /// Fits the rectangle `world` (m) into `frame` (px), same scale in both directions, centred.
+    /// Maps the rectangle `world` (m) into `frame` (px), centred, with the same scale in both directions.
     void set_world(rectangle const& world, rectangle const& frame) noexcept {
         scale_ = std::min(frame.width() / world.width(), frame.height() / world.height());
         origin_ = {0.5 * (frame.left + frame.right) - 0.5 * scale_ * (world.left + world.right),
@@ -74,7 +74,7 @@ public:
         set(c);
         cairo_paint(context_);
     }
-    /// Confines what follows to a rectangle of the page, until `unclip()`.
+    /// Clips all later drawing to a rectangle of the page, until `unclip()`.
     void clip(rectangle const& r) noexcept {
         cairo_save(context_);
         cairo_rectangle(context_, r.left, r.low, r.width(), r.height());
@@ -82,7 +82,8 @@ public:
     }
     void unclip() noexcept { cairo_restore(context_); }
 
-    /// \name A path collects any number of shapes, then fills or strokes them all at once.
+    /// \name Paths
+    /// add_...() collects any number of shapes; fill() or stroke() then draws them all at once.
     /// \{
     void add_disc(point const& centre, double radius) noexcept {
         cairo_new_sub_path(context_);
@@ -103,7 +104,7 @@ public:
     void add_polygon(std::initializer_list<point> corners) noexcept {
         add_polygon<std::initializer_list<point>>(corners);
     }
-    /// A line through all points of a range.
+    /// Adds a line through all points of a range.
     template <class Points>
     void add_path(Points const& points) noexcept {
         cairo_new_sub_path(context_);
@@ -133,7 +134,7 @@ public:
     }
     /// \}
 
-    /// Writes one line of UTF-8 text of the given height (px), its middle at `at`.
+    /// Writes one line of UTF-8 text of font size `size` (px), vertically centred at `at`.
     void text(point const& at, std::string const& line, double size, color const& c = {},
               text_align align = text_align::left, bool bold = false) {
         select_font(size, bold);
@@ -186,7 +187,8 @@ inline cairo_status_t write_to_text(void* text, unsigned char const* bytes, unsi
     static_cast<std::string*>(text)->append(reinterpret_cast<char const*>(bytes), count);
     return CAIRO_STATUS_SUCCESS;
 }
-/// cairo numbers its surfaces through the life of a program: counted from 1 the same drawing has the same bytes.
+/// Numbers cairo's surfaces from 1 on. cairo counts them over the life of the program; renumbered, the same drawing has
+/// the same bytes.
 inline std::string renumber_surfaces(std::string const& svg) {
     constexpr std::string_view mark = "surface";
     std::vector<std::string> known;
@@ -199,9 +201,9 @@ inline std::string renumber_surfaces(std::string const& svg) {
         from = end;
         if (end == first) continue;
         std::string const number = svg.substr(first, end - first);
-        std::size_t const place = std::size_t(std::find(known.begin(), known.end(), number) - known.begin());
-        if (place == known.size()) known.push_back(number);
-        out += std::to_string(place + 1);
+        std::size_t const index = std::size_t(std::find(known.begin(), known.end(), number) - known.begin());
+        if (index == known.size()) known.push_back(number);
+        out += std::to_string(index + 1);
     }
     return out.append(svg, from);
 }
@@ -211,9 +213,11 @@ inline cairo_status_t write_to_file(void* file, unsigned char const* bytes, unsi
 }
 } // namespace detail
 
-/// Draws a page of width x height pixels into a file, whole or not at all; the same drawing gives the same bytes. The
-/// name's end chooses the kind: ".png" or ".svg". \param draw called with a canvas&
-/// \throws std::invalid_argument for another ending or a size not from 1 to 30000
+/// Draws a page of width x height pixels into a file. The file is written completely or not at all; the same drawing
+/// gives the same bytes.
+/// \param path ends in ".png" or ".svg", which chooses the format
+/// \param draw called with a canvas&
+/// \throws std::invalid_argument for another ending, or a size that is not from 1 to 30000
 /// \throws std::runtime_error when the file cannot be written
 template <class Draw>
 void save_canvas(std::string const& path, double width, double height, Draw const& draw) {
@@ -244,7 +248,7 @@ void save_canvas(std::string const& path, double width, double height, Draw cons
     file.commit();
 }
 
-/// Draws the same page twice, into stem.png and stem.svg; see save_canvas.
+/// Draws the same page into stem.png and stem.svg; see save_canvas.
 template <class Draw>
 void save_canvas_png_svg(std::string const& stem, double width, double height, Draw const& draw) {
     save_canvas(stem + ".png", width, height, draw);

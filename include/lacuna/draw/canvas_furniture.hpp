@@ -10,11 +10,11 @@
 #include <lacuna/draw/color_scale.hpp>
 
 /// \file
-/// What stands beside a drawing: scale bar, colour bar, arrows, hatched supports, legend.
+/// Elements of a drawing: scale bar, colour bar, arrows, hatched supports, legend.
 
 namespace lacuna {
 
-/// A length in the unit that a person would choose: 2e-5 -> "20 µm".
+/// A length with a readable unit, m to nm: 2e-5 -> "20 µm".
 inline std::string length_label(double metres) {
     struct unit {
         double size;
@@ -28,11 +28,12 @@ inline std::string length_label(double metres) {
     return in_unit({1e-9, "nm"});
 }
 
-/// The unit in which pressures up to `largest` (Pa) read well, and its size in Pa; MPa wherever possible.
+/// A unit of pressure, and its size in Pa.
 struct pressure_unit {
     double size = 1e6;
     char const* name = "MPa";
 };
+/// A readable unit for pressures up to `largest` (Pa): MPa from 10 kPa to 10 GPa.
 inline pressure_unit pressure_unit_for(double largest) noexcept {
     double const size = std::fabs(largest);
     if (!(size > 0) || (size >= 1e4 && size < 1e10)) return {};
@@ -40,7 +41,7 @@ inline pressure_unit pressure_unit_for(double largest) noexcept {
     return size >= 10 ? pressure_unit{1e3, "kPa"} : pressure_unit{1, "Pa"};
 }
 
-/// A bar with its length in words, left end at `at` (page).
+/// Draws a bar of a round length, at most `longest_px` px long, with a label; its left end is at `at` (page).
 inline void draw_scale_bar(canvas& page, canvas::point const& at, double longest_px, double text_size,
                            color const& ink) {
     double const length = nice_below(longest_px / page.scale());
@@ -52,8 +53,8 @@ inline void draw_scale_bar(canvas& page, canvas::point const& at, double longest
     page.text({at[0] + px + 10, at[1]}, length_label(length), text_size, ink);
 }
 
-/// A vertical bar of the scale's colours in `box` (page), ticks on its right; a pointed end where the scale stops
-/// short of the values (`below`, `above`). Values are divided by `unit` for the labels.
+/// Draws a vertical bar of the scale's colours in `box` (page), with ticks on its right. With `below` or `above` that
+/// end is pointed: there are values beyond it. Values are divided by `unit` for the labels.
 inline void draw_color_bar(canvas& page, rectangle const& box, color_scale const& scale, double unit, bool below,
                            bool above, double text_size, color const& ink) {
     int const steps = 128;
@@ -61,7 +62,7 @@ inline void draw_color_bar(canvas& page, rectangle const& box, color_scale const
     for (int i = 0; i < steps; ++i) {
         double const value = scale.high() - (i + 0.5) / steps * (scale.high() - scale.low());
         double const top = box.low + i * slice;
-        // Each slice reaches under the next one: seams of two anti-aliased edges would show otherwise.
+        // Each slice extends below the next one, to hide the seam between two anti-aliased edges.
         page.add_rectangle({box.left, top, box.right, std::min(top + 2 * slice, box.high)});
         page.fill(scale(value));
     }
@@ -88,7 +89,8 @@ inline void draw_color_bar(canvas& page, rectangle const& box, color_scale const
     }
 }
 
-/// Adds an arrow's shaft and head to the page, its tip at `tip`, pointing along `direction` (any length).
+/// Draws an arrow with its tip at `tip` (page), pointing along `direction` (any length).
+/// \param length of the whole arrow, px; \param head length of its head, px
 inline void draw_arrow(canvas& page, canvas::point const& tip, canvas::point const& direction, double length,
                        double head, color const& ink, double line_width) {
     double const size = norm(direction);
@@ -102,18 +104,18 @@ inline void draw_arrow(canvas& page, canvas::point const& tip, canvas::point con
     page.fill(ink);
 }
 
-/// A line with slanted strokes behind it: something that does not move. The strokes stand on the right hand of
-/// the way from `from` to `to` as seen on the page.
+/// Draws a line with slanted strokes behind it, the symbol of a fixed support. The strokes are to the right of the
+/// line, as seen on the page when going from `from` to `to`.
 inline void draw_hatched_line(canvas& page, canvas::point const& from, canvas::point const& to, double depth,
                               color const& ink) {
-    canvas::point const way = to - from;
-    double const length = norm(way);
+    canvas::point const line = to - from;
+    double const length = norm(line);
     if (!(length > 0)) return;
-    canvas::point const along = way * (1 / length);
+    canvas::point const along = line * (1 / length);
     canvas::point const behind = perpendicular(along) * depth;
     int const strokes = std::max(1, int(length / (0.9 * depth)));
     for (int k = 0; k <= strokes; ++k) {
-        canvas::point const foot = from + way * (double(k) / strokes);
+        canvas::point const foot = from + line * (double(k) / strokes);
         page.add_line(foot, foot + behind - along * (0.8 * depth));
     }
     page.stroke(mix(ink, {1, 1, 1}, 0.35), 1.3);
@@ -121,7 +123,7 @@ inline void draw_hatched_line(canvas& page, canvas::point const& from, canvas::p
     page.stroke(ink, 2.5, true);
 }
 
-/// How an entry of a legend is drawn in front of its text.
+/// Symbol of a legend entry, drawn in front of its text.
 enum class legend_mark { disc, dash, line, ring, diamond, dashes, line_and_ring };
 struct legend_entry {
     legend_mark mark = legend_mark::disc;
@@ -129,7 +131,7 @@ struct legend_entry {
     std::string text;
 };
 
-/// Writes the entries one below the other from `at` (page) down. \return the y below the last one
+/// Draws the entries one below the other, from `at` (page) down. \return y below the last entry, px
 inline double draw_legend(canvas& page, canvas::point const& at, std::vector<legend_entry> const& entries,
                           double text_size, color const& text_ink) {
     double y = at[1];

@@ -22,16 +22,16 @@ struct color {
     friend constexpr bool operator==(color const&, color const&) noexcept = default;
 };
 
-/// Colours in between, part by part; share 0 gives a, share 1 gives b.
+/// Interpolates two colours part by part; share 0 gives a, share 1 gives b.
 constexpr color mix(color const& a, color const& b, double share) noexcept {
     return {a.red + share * (b.red - a.red), a.green + share * (b.green - a.green),
             a.blue + share * (b.blue - a.blue), a.alpha + share * (b.alpha - a.alpha)};
 }
 
-/// How values become colours.
+/// Colours of a scale.
 enum class color_map {
-    viridis,  ///< perceptually uniform, dark violet over green to yellow: values of one sign
-    diverging ///< violet below the middle, pale grey in it, green above: values of both signs
+    viridis,  ///< perceptually uniform, from dark violet over green to yellow: for values of one sign
+    diverging ///< from violet over pale grey to green: for values of both signs
 };
 
 namespace detail {
@@ -51,16 +51,16 @@ inline constexpr std::array<std::array<int, 3>, 9> diverging_points{{{64, 0, 75}
 
 template <std::size_t N>
 constexpr color interpolate(std::array<std::array<int, 3>, N> const& points, double share) noexcept {
-    double const place = share * double(N - 1);
-    std::size_t const below = std::min(std::size_t(place), N - 2);
+    double const position = share * double(N - 1);
+    std::size_t const below = std::min(std::size_t(position), N - 2);
     auto const rgb = [&](std::size_t i) {
         return color{points[i][0] / 255.0, points[i][1] / 255.0, points[i][2] / 255.0};
     };
-    return mix(rgb(below), rgb(below + 1), place - double(below));
+    return mix(rgb(below), rgb(below + 1), position - double(below));
 }
 } // namespace detail
 
-/// Maps the values from `low` to `high` to colours; values outside get the colour of the nearer end.
+/// Maps values from `low` to `high` to colours. Values outside get the colour of the nearer end.
 class color_scale {
 public:
     /// \throws std::invalid_argument unless low < high, both finite
@@ -86,9 +86,9 @@ private:
     color_map map_;
 };
 
-/// A scale for measured values: from the 1st to the 99th percentile, so that a few outliers do not bleach the
-/// rest, and always with zero in it. Values of both signs get the diverging map, symmetric about zero, unless one
-/// side is below a twentieth of the other. No values, or all zero: from 0 to 1.
+/// A colour scale for measured values. It extends from the 1st to the 99th percentile, so that a few outliers do not
+/// wash out the rest, and always includes zero. Values of both signs get the diverging map, symmetric about zero,
+/// unless one side is below a twentieth of the other. Without values, or if all are zero, the scale is from 0 to 1.
 inline color_scale robust_color_scale(std::vector<double> values) {
     values.erase(std::remove_if(values.begin(), values.end(), [](double v) { return !std::isfinite(v); }),
                  values.end());
@@ -108,7 +108,8 @@ inline color_scale robust_color_scale(std::vector<double> values) {
     return {-reach, reach, color_map::diverging};
 }
 
-/// The largest of 1, 2, 5 times a power of ten that is not above `value` (> 0): for the length of a scale bar.
+/// The largest number 1, 2 or 5 times a power of ten that is not above `value`: the length of a scale bar.
+/// \throws std::invalid_argument unless value > 0
 inline double nice_below(double value) {
     require_positive("nice_below.value", value);
     double const magnitude = std::pow(10.0, std::floor(std::log10(value)));
@@ -117,8 +118,9 @@ inline double nice_below(double value) {
     return magnitude;
 }
 
-/// Multiples of 1, 2 or 5 times a power of ten inside [low, high], at most `most` (>= 2) and as many as possible.
-/// \throws std::invalid_argument unless low < high, both finite
+/// All multiples of a step inside [low, high]. The step is the smallest number 1, 2 or 5 times a power of ten that
+/// gives at most `most` (>= 2) multiples.
+/// \throws std::invalid_argument unless low < high, both finite, and most >= 2
 inline std::vector<double> nice_ticks(double low, double high, int most = 6) {
     require_finite("nice_ticks.low", low);
     require_finite("nice_ticks.high", high);
@@ -138,7 +140,7 @@ inline std::vector<double> nice_ticks(double low, double high, int most = 6) {
     }
 }
 
-/// Labels of ticks, all with the decimals that their distance needs.
+/// Labels of equidistant ticks, all with as many decimals as their distance needs.
 inline std::vector<std::string> tick_labels(std::vector<double> const& ticks) {
     double const step = ticks.size() > 1 ? ticks[1] - ticks[0] : 1;
     double const largest = ticks.empty() ? 0 : std::max(std::fabs(ticks.front()), std::fabs(ticks.back()));

@@ -13,23 +13,23 @@
 #include <lacuna/draw/picture_scene.hpp>
 
 /// \file
-/// Two pictures of a scene: the specimen as in Figure 9 of the paper, and its damage as in Figures 10 to 12.
+/// Two pictures of a scene: the specimen as in the paper's Figure 9, and its damage as in Figures 10 to 12.
 
 namespace lacuna {
 
 /// Sizes in pixels and colours of a picture.
 struct picture_style {
-    double longest = 1120;      ///< height of the drawn frame, unless it gets wider than `widest`
-    double widest = 1120;       ///< width of the drawn frame
-    double text_size = 16;      ///< captions and ticks; the title is larger
-    double side_column = 240;   ///< width of the column of words with legend and colour bar
-    double dash_length = 1.7;   ///< broken bonds, in mean particle radii
+    double longest = 1120;      ///< largest height of the frame
+    double widest = 1120;       ///< largest width of the frame
+    double text_size = 16;      ///< of captions and ticks; the title is larger
+    double side_column = 240;   ///< width of the column with legend, captions and colour bar
+    double dash_length = 1.7;   ///< of broken bonds, in mean particle radii
     color ink{0.13, 0.13, 0.15};
     color bond{0.2905, 0.056, 0.0525};
     color tension{0.90, 0.05, 0.05};
     color shear{0.85, 0.05, 0.60};
 
-    /// \throws std::invalid_argument for a size that is not positive
+    /// \throws std::invalid_argument for a size that is not positive, or a colour outside 0 to 1
     void validate() const {
         require_positive("picture_style.longest", longest);
         require_positive("picture_style.widest", widest);
@@ -41,16 +41,17 @@ struct picture_style {
     }
 };
 
-/// Where things stand on the page of a picture.
+/// Positions of the parts of a picture on its page.
 struct picture_layout {
-    rectangle world;   ///< what the drawn frame shows, m
-    rectangle frame;   ///< the drawn frame on the page, px
-    double column = 0; ///< left end of the column of words, px
-    double width = 0;
-    double height = 0;
+    rectangle world;   ///< part of the world that the frame shows, m
+    rectangle frame;   ///< frame on the page, px
+    double column = 0; ///< left end of the column with legend, captions and colour bar, px
+    double width = 0;  ///< of the page, px
+    double height = 0; ///< of the page, px
 };
 
-/// The page for a scene: the body and its walls, with room for loads above, hatching below, words beside.
+/// Layout of the page for a scene: the specimen and its walls in the frame, with margins for loads above, hatching
+/// below and the column beside it.
 inline picture_layout layout_of(scene const& s, picture_style const& style) {
     s.validate();
     style.validate();
@@ -72,8 +73,8 @@ inline picture_layout layout_of(scene const& s, picture_style const& style) {
     page.frame = {margin, title + arrows, margin + scale * world.width(), title + arrows + scale * world.height()};
     page.column = page.frame.right + (s.zones.size() < 2 ? 40 : 115);
     page.width = std::ceil(page.column + style.side_column);
-    double const words = (16 + 1.5 * double(s.captions.size())) * style.text_size + 150;
-    page.height = std::ceil(std::max(page.frame.high + 76, page.frame.low + words));
+    double const column_height = (16 + 1.5 * double(s.captions.size())) * style.text_size + 150;
+    page.height = std::ceil(std::max(page.frame.high + 76, page.frame.low + column_height));
     return page;
 }
 
@@ -99,7 +100,7 @@ inline void add_bonds(canvas& page, scene const& s) {
     for (scene::bond const& b : s.bonds) page.add_line(page.page(b.from), page.page(b.to));
 }
 
-/// Background, title, loads, supports, walls, scale bar, names of zones: what both pictures share.
+/// Draws the parts that both pictures share: title, loads, supports, walls, scale bar.
 inline void draw_surroundings(canvas& page, scene const& s, picture_style const& style,
                               picture_layout const& layout) {
     double const em = style.text_size;
@@ -114,7 +115,7 @@ inline void draw_surroundings(canvas& page, scene const& s, picture_style const&
         if (std::fabs(at[0] - last_x) < 9) continue;
         last_x = at[0];
         canvas::point const direction{l.direction[0], -l.direction[1]};
-        // The tip stands off the particle by its radius, so that it points at the rim.
+        // The tip is a radius away from the centre, so that it points at the rim.
         double const off = mean_radius(s) * page.scale() + 2;
         double const size = norm(direction);
         canvas::point const tip = size > 0 ? at - direction * (off / size) : at;
@@ -153,7 +154,7 @@ inline double draw_captions(canvas& page, scene const& s, picture_style const& s
 
 } // namespace detail
 
-/// The specimen as in Figure 9 of the paper: particles by their kinds, bonds, loads, support, walls.
+/// Draws the specimen as in the paper's Figure 9: particles coloured by kind, bonds, loads, supports, walls.
 inline void draw_packing(canvas& page, scene const& s, picture_style const& style = {}) {
     picture_layout const layout = layout_of(s, style);
     page.set_world(layout.world, layout.frame);
@@ -178,8 +179,8 @@ inline void draw_packing(canvas& page, scene const& s, picture_style const& styl
     detail::draw_captions(page, s, style, {x, y + style.text_size});
 }
 
-/// The damage as in Figures 10 to 12: pore pressure as coloured dots with their scale, broken bonds as red dashes,
-/// particles and intact bonds faintly behind. What has left the frame is not drawn.
+/// Draws the damage as in the paper's Figures 10 to 12: pore pressure as coloured dots with a colour bar, broken bonds
+/// as dashes, particles and intact bonds in pale colours behind. Anything outside the frame is clipped.
 inline void draw_damage(canvas& page, scene const& s, picture_style const& style = {}) {
     picture_layout const layout = layout_of(s, style);
     double const em = style.text_size;
@@ -212,9 +213,9 @@ inline void draw_damage(canvas& page, scene const& s, picture_style const& style
         for (scene::crack const& c : s.cracks) {
             if (c.mode != mode) continue;
             double const size = norm(c.direction);
-            canvas::point const way{c.direction[0] / size * half, -c.direction[1] / size * half};
+            canvas::point const arm{c.direction[0] / size * half, -c.direction[1] / size * half};
             canvas::point const middle = page.page(c.position);
-            page.add_line(middle - way, middle + way);
+            page.add_line(middle - arm, middle + arm);
             ++count;
         }
         return count;
@@ -236,7 +237,8 @@ inline void draw_damage(canvas& page, scene const& s, picture_style const& style
                                      {legend_mark::dash, style.shear, "broken in shear: " + std::to_string(sheared)},
                                      {legend_mark::line, {0.58, 0.58, 0.60}, "intact bond"}};
     for (int kind = int(s.kinds.size()) - 1; kind >= 0; --kind)
-        if (detail::has_kind(s, kind)) legend.push_back({legend_mark::disc, s.kinds[std::size_t(kind)].behind, s.kinds[std::size_t(kind)].name});
+        if (detail::has_kind(s, kind))
+            legend.push_back({legend_mark::disc, s.kinds[std::size_t(kind)].behind, s.kinds[std::size_t(kind)].name});
     double y = draw_legend(page, {x, layout.frame.low + 12}, legend, em, style.ink);
     y = detail::draw_captions(page, s, style, {x, y + em}) + 1.6 * em;
     if (!pressures.empty()) {

@@ -10,61 +10,61 @@
 
 namespace lacuna {
 
-/// What a picture of a plane specimen shows, as plain data in SI units, y up: filled by whoever knows the model,
-/// read by draw_packing and draw_damage (draw/picture.hpp).
+/// Content of a picture of a plane specimen, as plain data in SI units, y up. The caller fills it in from the model;
+/// draw_packing() and draw_damage() draw it (draw/picture.hpp).
 struct scene {
     using point = vec<double, 2>;
 
-    /// Particles that are drawn alike.
+    /// Name and colours of a kind of particles.
     struct particle_kind {
-        std::string name;                   ///< in the legend
-        color fill{0.40, 0.60, 0.86};       ///< in the picture of the packing
-        color behind{0.955, 0.955, 0.96};   ///< faintly, behind the damage
+        std::string name;                 ///< in the legend
+        color fill{0.40, 0.60, 0.86};     ///< in the picture of the packing
+        color behind{0.955, 0.955, 0.96}; ///< pale colour behind the damage
     };
     struct particle {
         point position{};  ///< m
         double radius = 0; ///< m
-        int kind = 0;      ///< number in `kinds`
+        int kind = 0;      ///< index in `kinds`
     };
-    /// An intact bond, from particle to particle.
+    /// An intact bond, from particle centre to particle centre, m.
     struct bond {
         point from{};
         point to{};
     };
     enum class break_mode { tension, shear };
-    /// A broken bond: where it was, and along which direction it held (any length).
+    /// A broken bond: position, m, and direction of the bond's axis (any length).
     struct crack {
         point position{};
         point direction{1, 0};
         break_mode mode = break_mode::tension;
     };
-    /// A pore's centre and the pressure of its fluid (Pa).
+    /// A pore's centre, m, and the pressure of its fluid, Pa.
     struct pore {
         point position{};
         double pressure = 0;
     };
-    /// A load on a particle: where it acts, and its direction (any length).
+    /// A load on a particle: point of action, m, and direction (any length).
     struct load {
         point at{};
         point direction{0, -1};
     };
-    /// A rigid wall or support from point to point; the solid side is on the right of the way from -> to.
+    /// A rigid wall or support from point to point, m. Its solid is to the right when going from `from` to `to`.
     struct wall {
         point from{};
         point to{};
     };
-    /// A height at which a zone ends, with the name of the zone below it.
+    /// A horizontal zone of the specimen, with its name.
     struct zone {
         double low = 0;  ///< m
         double high = 0; ///< m
         std::string name;
     };
 
-    double left = 0;   ///< the body's frame, m; walls and supports may lie outside
+    double left = 0;   ///< frame of the specimen, m; walls and supports may lie outside
     double bottom = 0; ///< m
     double right = 0;  ///< m
     double top = 0;    ///< m
-    std::vector<particle_kind> kinds{{"particle"}}; ///< the last on top
+    std::vector<particle_kind> kinds{{"particle"}}; ///< drawn in this order, the last on top
     std::vector<particle> particles;
     std::vector<bond> bonds;
     std::vector<crack> cracks;
@@ -75,8 +75,8 @@ struct scene {
     std::vector<zone> zones;
     std::string title;                 ///< one line above the picture
     std::string subtitle;              ///< one smaller line below the title
-    std::string load_label;            ///< beside the arrows, "60 MPa" say
-    std::vector<std::string> captions; ///< short lines of figures, beside the picture
+    std::string load_label;            ///< beside the arrows, such as "60 MPa"
+    std::vector<std::string> captions; ///< short lines with numbers, beside the picture
 
     /// \throws std::invalid_argument for an empty frame, or a particle without a position, a radius or a kind
     void validate() const {

@@ -13,8 +13,8 @@
 #include <lacuna/draw/plot_axis.hpp>
 
 /// \file
-/// Plots of one quantity over another: axes, lines, markers, bands, a legend. Drawn on a canvas, so a plot becomes PNG
-/// and SVG by save_canvas_png_svg.
+/// Plots of one quantity over another: axes, lines, markers, bands, a legend. They are drawn on a canvas;
+/// save_canvas_png_svg() writes it as PNG and SVG.
 
 namespace lacuna {
 
@@ -25,7 +25,7 @@ struct plot_style {
     color grid{0.87, 0.87, 0.89};
 };
 
-/// Colours of curves that lie beside each other; they also differ in lightness.
+/// Colours of the curves of one plot. They differ in lightness too; after six they repeat.
 inline color plot_ink(std::size_t curve) noexcept {
     constexpr std::array<color, 6> inks{{{0.10, 0.35, 0.75},
                                          {0.80, 0.30, 0.10},
@@ -38,14 +38,14 @@ inline color plot_ink(std::size_t curve) noexcept {
 
 enum class plot_mark { disc, ring, diamond, cross };
 
-/// The plane of a plot inside `frame` (page): places values and draws with them. What lies outside is clipped, except
-/// markers, which are left out. Values that are not finite interrupt a line and have no marker.
+/// A plot inside `frame` (page): maps pairs of values to page points and draws them. Lines and areas are clipped at the
+/// frame; markers outside it are omitted. A value that is not finite interrupts a line, and has no marker.
 class plot {
 public:
     using point = canvas::point;
     using points = std::vector<vec<double, 2>>;
 
-    /// \throws std::invalid_argument for axes that end where they begin
+    /// \throws std::invalid_argument for an axis that plot_axis::validate() refuses
     plot(canvas& page, rectangle const& frame, plot_axis x, plot_axis y, plot_style const& style = {})
         : page_(page), frame_(frame), x_(std::move(x)), y_(std::move(y)), style_(style) {
         x_.validate("plot.x");
@@ -55,25 +55,25 @@ public:
     plot_axis const& x() const noexcept { return x_; }
     plot_axis const& y() const noexcept { return y_; }
 
-    /// The page point of a pair of values.
+    /// Page point of a pair of values.
     point at(double x, double y) const noexcept {
         return {frame_.left + x_.share(x) * frame_.width(), frame_.high - y_.share(y) * frame_.height()};
     }
 
-    /// Grid, ticks, rim; the label of x below the frame, that of y above its left end.
+    /// Draws grid, ticks and frame, the label of x below the frame, and the label of y above its left end.
     void draw_axes() {
         double const em = style_.text_size;
         for (plot_tick const& tick : ticks_of(x_)) {
-            double const place = frame_.left + x_.share(tick.at) * frame_.width();
-            page_.add_line({place, frame_.low}, {place, frame_.high});
+            double const x = frame_.left + x_.share(tick.at) * frame_.width();
+            page_.add_line({x, frame_.low}, {x, frame_.high});
             page_.stroke(style_.grid, 1);
-            page_.text({place, frame_.high + 1.2 * em}, tick.label, em, style_.ink, text_align::center);
+            page_.text({x, frame_.high + 1.2 * em}, tick.label, em, style_.ink, text_align::center);
         }
         for (plot_tick const& tick : ticks_of(y_)) {
-            double const place = frame_.high - y_.share(tick.at) * frame_.height();
-            page_.add_line({frame_.left, place}, {frame_.right, place});
+            double const y = frame_.high - y_.share(tick.at) * frame_.height();
+            page_.add_line({frame_.left, y}, {frame_.right, y});
             page_.stroke(style_.grid, 1);
-            page_.text({frame_.left - 0.6 * em, place}, tick.label, em, style_.ink, text_align::right);
+            page_.text({frame_.left - 0.6 * em, y}, tick.label, em, style_.ink, text_align::right);
         }
         page_.add_rectangle(frame_);
         page_.stroke(style_.ink, 1.2);
@@ -94,7 +94,7 @@ public:
             page_.stroke_dashed(ink, width, 5, 4);
         });
     }
-    /// A line across the plot at a value of x or of y.
+    /// Draws a dashed line across the plot at a value of x or of y.
     void rule_x(double x, color const& ink, double width = 1.2) {
         dashed_line({{x, y_.low}, {x, y_.high}}, ink, width);
     }
@@ -102,7 +102,7 @@ public:
         dashed_line({{x_.low, y}, {x_.high, y}}, ink, width);
     }
 
-    /// Fills between two lines over the same x.
+    /// Fills the area between two lines.
     void band(points const& lower, points const& upper, color const& ink) {
         std::vector<point> rim;
         for (auto const& p : lower) rim.push_back(at(p[0], p[1]));
@@ -112,7 +112,7 @@ public:
             page_.fill(ink);
         });
     }
-    /// Fills a rectangle given by its values.
+    /// Fills the rectangle from x1 to x2 and from y1 to y2.
     void box(double x1, double x2, double y1, double y2, color const& ink) {
         band({{x1, y1}, {x2, y1}}, {{x1, y2}, {x2, y2}}, ink);
     }
@@ -138,7 +138,7 @@ public:
         else
             page_.stroke(ink, 1.3);
     }
-    /// A word at a place of the plot.
+    /// Writes a text at the page point of (x, y).
     void word(double x, double y, std::string const& text, color const& ink, text_align align = text_align::left) {
         page_.text(at(x, y), text, style_.text_size, ink, align);
     }
@@ -155,19 +155,19 @@ private:
         page_.unclip();
     }
     void add_line(points const& values) {
-        std::vector<point> run;
-        auto const end_run = [&] {
-            if (run.size() > 1) page_.add_path(run);
-            run.clear();
+        std::vector<point> part;
+        auto const end_part = [&] {
+            if (part.size() > 1) page_.add_path(part);
+            part.clear();
         };
         for (auto const& p : values) {
-            point const place = at(p[0], p[1]);
-            if (std::isfinite(place[0]) && std::isfinite(place[1]))
-                run.push_back(place);
+            point const position = at(p[0], p[1]);
+            if (std::isfinite(position[0]) && std::isfinite(position[1]))
+                part.push_back(position);
             else
-                end_run();
+                end_part();
         }
-        end_run();
+        end_part();
     }
 
     canvas& page_;
@@ -176,8 +176,8 @@ private:
     plot_style style_;
 };
 
-/// Writes legend entries beside each other from `at` (page) on, in as many rows as `width` needs.
-/// \return the y below the last row
+/// Draws legend entries side by side from `at` (page) on, in as many rows as fit the entries into `width` (px).
+/// \return y below the last row, px
 inline double draw_legend_row(canvas& page, canvas::point const& at, double width,
                               std::vector<legend_entry> const& entries, double text_size, color const& text_ink) {
     canvas::point next = at;

@@ -14,7 +14,7 @@ namespace lacuna {
 
 enum class axis_scale { linear, logarithmic };
 
-/// A place on an axis that is marked, and what stands beside it.
+/// A tick on an axis: its value, and its label.
 struct plot_tick {
     double at = 0;
     std::string label;
@@ -24,17 +24,18 @@ struct plot_tick {
 struct plot_axis {
     double low = 0;
     double high = 1;
-    std::string label = {}; ///< what it measures, with the unit
+    std::string label = {}; ///< quantity, with its unit
     axis_scale scale = axis_scale::linear;
     int most_ticks = 6;
-    std::vector<plot_tick> ticks = {}; ///< of one's own: names of categories, say; none: round numbers
+    std::vector<plot_tick> ticks = {}; ///< custom ticks, such as names of categories; if empty, round numbers
 
-    /// Where a value stands between the ends, 0 at `low` and 1 at `high`.
+    /// Position of a value on the axis: 0 at `low`, 1 at `high`.
     double share(double value) const noexcept {
         return scale == axis_scale::linear ? (value - low) / (high - low)
                                            : std::log(value / low) / std::log(high / low);
     }
-    /// \throws std::invalid_argument unless low < high, both finite; above zero on a logarithmic axis
+    /// \throws std::invalid_argument unless low < high, both finite (and > 0 on a logarithmic axis), and most_ticks >=
+    /// 2
     void validate(std::string const& name) const {
         require_finite(name + ".low", low);
         require_finite(name + ".high", high);
@@ -45,14 +46,14 @@ struct plot_axis {
 };
 
 namespace detail {
-/// The numbers `factors` times a power of ten inside the axis, every `every`-th power.
+/// Ticks at `factors` times powers of ten inside the axis, for every `every`-th power.
 inline std::vector<plot_tick> decade_ticks(plot_axis const& axis, std::vector<double> const& factors, int every) {
     std::vector<plot_tick> ticks;
     int const first = int(std::floor(std::log10(axis.low) - 1e-9)), last = int(std::ceil(std::log10(axis.high)));
     for (int power = first; power <= last; ++power) {
         if (((power % every) + every) % every != 0) continue;
         for (double const factor : factors) {
-            // Read, not multiplied: the tick is the number that its label says.
+            // Read from its decimal digits: a product of powers could differ from its label by rounding.
             std::string const digits = std::to_string(int(factor)) + "e" + std::to_string(power);
             double const at = number_of(digits).value();
             if (at >= axis.low * (1 - 1e-9) && at <= axis.high * (1 + 1e-9)) ticks.push_back({at, to_text(at)});
@@ -62,8 +63,9 @@ inline std::vector<plot_tick> decade_ticks(plot_axis const& axis, std::vector<do
 }
 } // namespace detail
 
-/// The ticks of an axis: its own, or else at most `most_ticks` round numbers. A logarithmic axis has 1, 2 and 5 times
-/// the powers of ten, or powers alone where these are too many, or evenly spaced numbers where they are too few.
+/// The ticks of an axis: its custom ones, or otherwise at most `most_ticks` round numbers. A logarithmic axis has ticks
+/// at 1, 2 and 5 times the powers of ten, at powers only if those are too many, or at equidistant round numbers if they
+/// are fewer than three.
 inline std::vector<plot_tick> ticks_of(plot_axis const& axis) {
     axis.validate("plot_axis");
     if (!axis.ticks.empty()) return axis.ticks;
@@ -74,11 +76,11 @@ inline std::vector<plot_tick> ticks_of(plot_axis const& axis) {
         for (int every = 2; ticks.size() > most; ++every) ticks = detail::decade_ticks(axis, {1}, every);
         if (ticks.size() > 2) return ticks;
     }
-    std::vector<double> const places = nice_ticks(axis.low, axis.high, axis.most_ticks);
-    std::vector<std::string> const labels = tick_labels(places);
+    std::vector<double> const values = nice_ticks(axis.low, axis.high, axis.most_ticks);
+    std::vector<std::string> const labels = tick_labels(values);
     std::vector<plot_tick> ticks;
-    for (std::size_t k = 0; k < places.size(); ++k)
-        if (axis.scale == axis_scale::linear || places[k] > 0) ticks.push_back({places[k], labels[k]});
+    for (std::size_t k = 0; k < values.size(); ++k)
+        if (axis.scale == axis_scale::linear || values[k] > 0) ticks.push_back({values[k], labels[k]});
     return ticks;
 }
 

@@ -12,7 +12,7 @@
 #include <lacuna/core/text.hpp>
 
 /// \file
-/// Tables in text files of any program: cells parted by commas, semicolons, tabs or blanks, with or without quotes. Used by
+/// Tables in text files: cells separated by commas, semicolons, tabs or blanks, with or without quotes. Used by
 /// particle_csv.hpp.
 
 namespace lacuna::detail {
@@ -23,9 +23,9 @@ struct csv_row {
     std::vector<std::string> cells{};
 };
 
-/// The cells of a line, without the quotes around them and the blanks at their ends.
-/// \param separator ' ': any blanks
-/// \throws std::invalid_argument for quotes that are not closed, or that close before the cell ends
+/// The cells of a line, without quotes around them and without blanks at their ends.
+/// \param separator between cells; ' ' stands for any number of blanks
+/// \throws std::invalid_argument for quotes that are not closed, or that close before the end of a cell
 inline std::vector<std::string> csv_cells(std::string_view line, char separator, std::string const& where) {
     if (separator == ' ') return words_of(line);
     std::string_view const blanks = separator == '\t' ? " \r" : " \t\r";
@@ -59,26 +59,27 @@ inline std::vector<std::string> csv_cells(std::string_view line, char separator,
     }
 }
 
-/// What parts the cells of a heading: semicolons, else tabs, else commas, else blanks; marks in quotes do not count.
+/// The separator of the cells of a heading: the first of semicolon, tab and comma that occurs outside quotes, or else
+/// blanks.
 inline char csv_separator(std::string_view heading) {
-    std::string open;
+    std::string unquoted;
     bool inside = false;
     for (char const c : heading) {
         if (c == '"') inside = !inside;
-        if (!inside) open += c;
+        if (!inside) unquoted += c;
     }
-    open = trimmed(open);
+    unquoted = trimmed(unquoted);
     for (char const mark : {';', '\t', ','})
-        if (open.find(mark) != open.npos) return mark;
+        if (unquoted.find(mark) != unquoted.npos) return mark;
     return ' ';
 }
 
-/// Whether a cell is a number, or was meant to be one.
+/// Whether a cell begins like a number.
 inline bool csv_starts_number(std::string_view cell) {
     return !cell.empty() && std::string_view("+-.,0123456789").find(cell[0]) != std::string_view::npos;
 }
 
-/// A number with one comma that can be no mark between thousands.
+/// Whether a cell has one comma, which cannot be a separator of thousands.
 inline bool has_decimal_comma(std::string_view cell) {
     if (cell.starts_with('-') || cell.starts_with('+')) cell.remove_prefix(1);
     auto const comma = cell.find(',');
@@ -93,10 +94,10 @@ struct csv_table {
     std::vector<csv_row> rows;
     char separator = ',';
 
-    /// Reads a text. The heading is its first line; where that is a row of numbers, a comment above it: "# x y z r", or
-    /// Yade's with the word format and x_y_z_r. Other lines that begin with # and empty ones are passed over.
-    /// \param name of the file in messages
-    /// \param is_heading tells whether cells of a comment name columns
+    /// Reads a text. The heading is its first line. If that is a row of numbers, the heading is a comment above it,
+    /// such as "# x y z r", or Yade's with the word format and x_y_z_r. Other comments (#) and empty lines are skipped.
+    /// \param name name of the file in messages
+    /// \param is_heading callable (cells of a comment) -> whether they name columns
     /// \throws std::invalid_argument naming file and line
     template <class IsHeading>
     static csv_table read(std::string_view text, std::string const& name, IsHeading const& is_heading) {
@@ -111,7 +112,8 @@ struct csv_table {
             bool const headed = !table.heading.cells.empty();
             if (line[0] == '#') {
                 if (table.rows.empty()) table.try_comment(line.substr(1), number, where, is_heading);
-            } else if (!headed || (table.from_comment_ && table.rows.empty() && !csv_starts_number(line.substr(line[0] == '"')))) {
+            } else if (!headed ||
+                       (table.from_comment_ && table.rows.empty() && !csv_starts_number(line.substr(line[0] == '"')))) {
                 table.take_heading(line, number, where);
             } else {
                 table.take_row(line, number, where);
@@ -121,8 +123,8 @@ struct csv_table {
         return table;
     }
 
-    /// Whether numbers of these columns have decimal commas.
-    /// \throws std::invalid_argument where that cannot be told: "1,000" may be one or a thousand
+    /// Whether the numbers of some columns have decimal commas.
+    /// \throws std::invalid_argument if that is ambiguous: "1,000" may be one or a thousand
     bool has_decimal_commas(std::vector<std::size_t> const& columns, std::string const& name) const {
         csv_row const* first = nullptr;
         std::size_t at = 0;
@@ -137,14 +139,14 @@ struct csv_table {
             }
         if (first != nullptr && !certain)
             refuse(name + ":" + std::to_string(first->line), in_quotes(first->cells[at]),
-                   "a number without a comma, which may be a decimal mark or one between thousands");
+                   "a number without a comma, which may be a decimal comma or separate thousands");
         return certain;
     }
 
 private:
     void take_heading(std::string_view line, std::size_t number, std::string const& where) {
         if (csv_starts_number(line.substr(line[0] == '"')))
-            refuse(where, in_quotes(line), "a heading that names the columns, as \"x,y,z,r\"");
+            refuse(where, in_quotes(line), "a heading that names the columns, such as \"x,y,z,r\"");
         separator = csv_separator(line);
         heading = {number, csv_cells(line, separator, where)};
         from_comment_ = false;
@@ -164,7 +166,7 @@ private:
         try {
             cells = csv_cells(text, mark, where);
         } catch (std::invalid_argument const&) {
-            return; // quotes that are not closed: words of a person
+            return; // quotes that are not closed: a comment for readers
         }
         if (!yade && !is_heading(cells)) return;
         heading = {number, std::move(cells)};
@@ -180,7 +182,8 @@ private:
         if (row.cells.size() != wanted)
             refuse(where, std::to_string(row.cells.size()) + " cells",
                    "as many as the heading has, " + std::to_string(wanted) +
-                       (row.cells.size() == 1 ? std::string(", parted by ") + mark_name() + " as there" : std::string()) +
+                       (row.cells.size() == 1 ? std::string(", separated by ") + mark_name() + " as there"
+                                              : std::string()) +
                        (row.cells.size() > wanted && separator == ',' ? "; decimal commas need cells in quotes" : ""));
         rows.push_back(std::move(row));
     }

@@ -14,8 +14,8 @@ namespace lacuna::detail {
 
 inline constexpr double pi = 3.14159265358979323846;
 
-/// Area of a disc of radius r around x that lies inside the rectangle's four half-planes (a corner that cuts the
-/// disc on two sides at once is counted as two separate cuts).
+/// Area of the part of a disc of radius r around x that lies inside a rectangle. Near a corner, where two sides cut the
+/// disc, both segments are subtracted in full.
 inline double area_inside(vec<double, 2> const& x, double r, vec<double, 2> const& low, vec<double, 2> const& high) {
     double area = pi * r * r;
     for (int axis = 0; axis < 2; ++axis)
@@ -32,14 +32,14 @@ inline double area_inside(disc_bed const& bed, std::size_t from, std::size_t to)
     return area;
 }
 
-/// Discs of radii [r_low, r_high] that a bed may hold.
+/// Range of radii of the discs of a bed.
 struct radius_range {
     double low, high;
     double draw(random_source& random) const { return low < high ? random.uniform(low, high) : low; }
 };
 
-/// Scatters discs of total area `area` over the rectangle outside the obstacles: evenly on the scale of a few
-/// discs, at random below it.
+/// Scatters discs of total area `area` over the rectangle outside the obstacles. Their positions are points of a
+/// lattice, displaced at random: even on the scale of a few discs, random below it.
 inline void scatter(disc_bed& bed, random_source& random, radius_range range, double area) {
     std::vector<double> radius;
     for (double filled = 0; filled < area;) {
@@ -52,9 +52,9 @@ inline void scatter(disc_bed& bed, random_source& random, radius_range range, do
     if (n == 0) return;
     vec<double, 2> const size = bed.high - bed.low;
     disc_grid const obstacles(bed.x, 4.0);
-    std::vector<vec<double, 2>> seat;
-    for (double spacing = std::sqrt(size[0] * size[1] / double(n)); seat.size() < n; spacing *= 0.985) {
-        seat.clear();
+    std::vector<vec<double, 2>> candidate;
+    for (double spacing = std::sqrt(size[0] * size[1] / double(n)); candidate.size() < n; spacing *= 0.985) {
+        candidate.clear();
         for (double y = bed.low[1] + spacing / 2; y < bed.high[1]; y += spacing)
             for (double x = bed.low[0] + spacing / 2; x < bed.high[0]; x += spacing) {
                 vec<double, 2> const p{x + spacing * random.uniform(-0.45, 0.45),
@@ -64,34 +64,34 @@ inline void scatter(disc_bed& bed, random_source& random, radius_range range, do
                     double const keep = bed.r[j] + 0.4;
                     free = free && squared_norm(p - bed.x[j]) > keep * keep;
                 });
-                if (free) seat.push_back(p);
+                if (free) candidate.push_back(p);
             }
         if (spacing < 0.05) return;
     }
-    // Every surplus seat is dropped with equal chance, in one pass.
-    std::size_t left = seat.size(), wanted = n;
-    for (auto const& p : seat) {
+    // Selects n of the candidates in one pass, all with equal probability.
+    std::size_t left = candidate.size(), wanted = n;
+    for (auto const& p : candidate) {
         if (random.uniform() * double(left--) >= double(wanted)) continue;
         bed.x.push_back(p);
         bed.r.push_back(radius[--wanted]);
     }
 }
 
-/// Removes the mobile discs for which gone(i) holds.
-template <class Gone>
-void remove_discs(disc_bed& bed, Gone&& gone) {
-    std::size_t keep = bed.fixed;
+/// Removes the mobile discs for which remove(i) is true.
+template <class Remove>
+void remove_discs(disc_bed& bed, Remove&& remove) {
+    std::size_t count = bed.fixed;
     for (std::size_t i = bed.fixed; i < bed.x.size(); ++i)
-        if (!gone(i)) {
-            bed.x[keep] = bed.x[i];
-            bed.r[keep++] = bed.r[i];
+        if (!remove(i)) {
+            bed.x[count] = bed.x[i];
+            bed.r[count++] = bed.r[i];
         }
-    bed.x.resize(keep);
-    bed.r.resize(keep);
+    bed.x.resize(count);
+    bed.r.resize(count);
 }
 
-/// Takes out discs that are squeezed more than `limit` (sum of overlaps over radius), one per neighbourhood.
-/// Returns how many went.
+/// Removes discs whose sum of overlaps over radius exceeds `limit`, at most one within a distance of 6.
+/// \return number of discs removed
 inline std::size_t remove_squeezed(disc_bed& bed, std::vector<double> const& pressure, double limit) {
     std::vector<std::size_t> order;
     for (std::size_t i = bed.fixed; i < bed.x.size(); ++i)
@@ -100,22 +100,23 @@ inline std::size_t remove_squeezed(disc_bed& bed, std::vector<double> const& pre
         return pressure[a] != pressure[b] ? pressure[a] > pressure[b] : a < b;
     });
     disc_grid const grid(bed.x, 4.0);
-    std::vector<char> gone(bed.x.size(), 0), near(bed.x.size(), 0);
-    std::size_t removed = 0;
+    std::vector<char> removed(bed.x.size(), 0), near(bed.x.size(), 0);
+    std::size_t count = 0;
     for (std::size_t i : order) {
         if (near[i]) continue;
-        gone[i] = 1;
-        ++removed;
+        removed[i] = 1;
+        ++count;
         grid.for_each_near(bed.x[i], 6.0, [&](std::size_t j) {
             if (squared_norm(bed.x[j] - bed.x[i]) < 36.0) near[j] = 1;
         });
     }
-    remove_discs(bed, [&](std::size_t i) { return gone[i] != 0; });
-    return removed;
+    remove_discs(bed, [&](std::size_t i) { return removed[i] != 0; });
+    return count;
 }
 
-/// Puts discs into holes that hold at least `least` of the smallest radius, widest first, until the mobile discs
-/// cover `area`. Returns how many came.
+/// Adds discs in holes with a clearance of at least `least` times the smallest radius, widest holes first, until the
+/// mobile discs cover `area`.
+/// \return number of discs added
 inline std::size_t fill_holes(disc_bed& bed, random_source& random, radius_range range, double least, double area) {
     struct hole {
         vec<double, 2> x;
@@ -161,10 +162,10 @@ inline std::size_t fill_holes(disc_bed& bed, random_source& random, radius_range
     return bed.x.size() - before;
 }
 
-/// Lets radii breathe within their range while the discs relax: squeezed discs shrink, loose ones grow, until each
-/// has overlaps of about `target` times its radius in sum. A negative target stands for the present mean, which
-/// keeps the covered area (Brito, Lerner and Wyart, Phys. Rev. X 8, 031050 (2018), in its simplest form). No disc
-/// grows while the mobile discs cover `most` or more.
+/// Changes radii within their range while the discs relax: squeezed discs shrink and loose ones grow, until each disc's
+/// sum of overlaps is about `target` times its radius. A negative target means the present mean, and keeps the covered
+/// area constant (a simple form of Brito, Lerner and Wyart, Phys. Rev. X 8, 031050 (2018)). No disc grows while the
+/// mobile discs cover `most` or more.
 inline void breathe(disc_bed& bed, disc_relaxer& relaxer, radius_range range, double target, int rounds,
                     double enough, double most = 1e300) {
     for (int round = 0; round < rounds; ++round) {
@@ -193,13 +194,13 @@ inline void breathe(disc_bed& bed, disc_relaxer& relaxer, radius_range range, do
     }
 }
 
-/// Makes sure that no overlap exceeds `tolerance` times the smaller radius: relaxes, then shrinks what is left
-/// within the range, then removes. Always ends with the promise kept.
+/// Ensures that no overlap exceeds `tolerance` times the smaller radius. It relaxes the bed, then shrinks discs within
+/// their range, then removes discs that still overlap too much, and repeats that until no disc has to be removed.
 inline void settle(disc_bed& bed, disc_relaxer& relaxer, radius_range range, double tolerance) {
     relaxer.run(400, 0.2 * tolerance * range.low);
-    double const margin = 1 - 1e-6; // rounding must not carry an overlap back over the tolerance
+    double const margin = 1 - 1e-6; // keeps rounding from raising an overlap above the tolerance again
     for (;;) {
-        std::vector<char> gone(bed.x.size(), 0);
+        std::vector<char> removed(bed.x.size(), 0);
         bool again = false;
         auto const ease = [&](std::size_t i, double excess) {
             if (i < bed.fixed) return excess;
@@ -209,31 +210,32 @@ inline void settle(disc_bed& bed, disc_relaxer& relaxer, radius_range range, dou
             return excess - eased;
         };
         relaxer.for_each_pair([&](std::size_t i, std::size_t j) {
-            if (gone[i] || gone[j]) return;
+            if (removed[i] || removed[j]) return;
             double const d = norm(bed.x[j] - bed.x[i]);
             double const allowed = tolerance * margin * std::min(bed.r[i], bed.r[j]);
             double const excess = bed.r[i] + bed.r[j] - d - allowed;
             if (excess <= 0) return;
-            // Both give half; what one cannot give the other does. The allowance shrinks too, hence the factor.
+            // Each disc shrinks by half of it, or takes over what the other cannot. The factor is due to `allowed`,
+            // which shrinks with the radii.
             double const need = excess * (1 + 2 * tolerance);
             double left = j < bed.fixed ? need : ease(j, need / 2) + need / 2;
             left = ease(i, left);
             if (left > 0) left = ease(j, left);
             if (left > 1e-9) {
-                gone[i] = 1;
+                removed[i] = 1;
                 again = true;
             }
         });
         for (std::size_t i = bed.fixed; i < bed.x.size(); ++i)
             for (int axis = 0; axis < 2; ++axis) {
                 double const excess = std::fabs(bed.side_overlap(i, axis)) - tolerance * margin * bed.r[i];
-                if (!gone[i] && excess > 0 && ease(i, excess * (1 + 2 * tolerance)) > 1e-9) {
-                    gone[i] = 1;
+                if (!removed[i] && excess > 0 && ease(i, excess * (1 + 2 * tolerance)) > 1e-9) {
+                    removed[i] = 1;
                     again = true;
                 }
             }
         if (!again) return;
-        remove_discs(bed, [&](std::size_t i) { return gone[i] != 0; });
+        remove_discs(bed, [&](std::size_t i) { return removed[i] != 0; });
         relaxer.reset();
         relaxer.run(200, 0.2 * tolerance * range.low);
     }

@@ -14,21 +14,22 @@
 
 namespace lacuna {
 
-/// A fibre: a chain of touching, bonded particles. Numbers refer to the packing that it was laid into.
+/// A fibre: a chain of touching, bonded particles. Entries are numbers of particles and bonds of the packing.
 struct fibre_chain {
     std::vector<std::int32_t> particles; ///< in order along the fibre
     std::vector<std::int32_t> bonds;     ///< bond k joins particles k and k + 1
 };
 
-/// How much of a free length a row of discs could take.
+/// Radii of a row of discs that fills a length.
 struct fitted_row {
     std::vector<double> radius; ///< m, in order
-    double rest = 0;            ///< length left over, m; 0 (to rounding) when the row fits exactly
+    double rest = 0;            ///< length left over, m; 0 when the row fits to rounding
 };
 
-/// Radii whose diameters add up to `length` exactly: drawn from [r_min, r_max], then all moved by the same fraction
-/// of their distance towards one end of the range. Where no number of discs fits, the row falls short by `rest`.
+/// Radii of discs whose diameters sum to `length`. They are drawn from [r_min, r_max]; then each is moved towards the
+/// same end of the range, by the same fraction of its distance. If no number of discs fits, `rest` is left over.
 /// \param length m; a length <= 0 gives an empty row
+/// \param r_min,r_max range of radii, m
 inline fitted_row fit_radii(double length, double r_min, double r_max, random_source& random) {
     fitted_row row;
     double const slack = 1e-9 * r_min;
@@ -59,10 +60,11 @@ inline fitted_row fit_radii(double length, double r_min, double r_max, random_so
     return row;
 }
 
-/// Lays discs of given radii one after another along a line, each touching the one before, neighbours bonded.
-/// \param edge where the first disc begins (its outermost point against the direction), m
+/// Adds a row of discs of given radii along a line. Neighbours touch and are bonded.
+/// \param chain the fibre to continue: empty, or ending with a particle whose far edge is at `edge`
+/// \param edge start of the row: the point of the first disc's rim opposite to `direction`, m
 /// \param direction unit vector
-/// \param chain the fibre that is continued; empty, or ending with a particle whose far edge is `edge`
+/// \param radius m
 template <class Real, int Dim>
 void lay_radii(packing<Real, Dim>& to, fibre_chain& chain, vec<Real, Dim> const& edge,
                vec<Real, Dim> const& direction, std::vector<double> const& radius, int material) {
@@ -78,14 +80,14 @@ void lay_radii(packing<Real, Dim>& to, fibre_chain& chain, vec<Real, Dim> const&
     }
 }
 
-/// Lays a fibre of touching discs with random radii along a straight line.
+/// Adds a fibre of touching discs with random radii along a straight line.
 /// \param to packing to which particles and bonds are added
-/// \param edge where the first disc begins, m
-/// \param direction any vector but zero
-/// \param length that the fibre may take from edge to edge, m; it ends with the last disc that fits
+/// \param edge start of the fibre: the rim of its first disc, m
+/// \param direction any vector except zero
+/// \param length largest length of the fibre from rim to rim, m; it ends with the last disc that fits
 /// \param r_min,r_max range of radii, m
 /// \param random source of the radii
-/// \throws std::invalid_argument on a bad length, range or direction
+/// \throws std::invalid_argument for a length or radius that is not > 0, r_max < r_min, or a direction of zero length
 template <class Real, int Dim>
 fibre_chain lay_fibre(packing<Real, Dim>& to, vec<Real, Dim> const& edge, vec<Real, Dim> const& direction,
                       Real length, Real r_min, Real r_max, random_source& random, int material = 1) {
@@ -107,8 +109,8 @@ fibre_chain lay_fibre(packing<Real, Dim>& to, vec<Real, Dim> const& edge, vec<Re
     return chain;
 }
 
-/// Length of the ray from `from` along `direction` inside the box [low, high], in units of |direction|; 0 when the
-/// start lies outside.
+/// Length of the ray from `from` along `direction` inside the box [low, high], in units of |direction|; 0 if it starts
+/// outside.
 template <class Real, int Dim>
 Real length_inside(vec<Real, Dim> const& from, vec<Real, Dim> const& direction, vec<Real, Dim> const& low,
                    vec<Real, Dim> const& high) {
@@ -121,15 +123,16 @@ Real length_inside(vec<Real, Dim> const& from, vec<Real, Dim> const& direction, 
     return length;
 }
 
-/// Lays a fibre from a point until its next disc would leave the box [low, high]; see lay_fibre.
-/// The first disc is centred at `centre`, with radius drawn from the range; nothing is laid when it does not fit.
+/// Adds a fibre that ends before a disc would leave the box [low, high]; see lay_fibre(). The first disc is centred at
+/// `centre`. Without any effect if `centre` is closer than r_max to a side of the box.
+/// \throws std::invalid_argument for a direction of zero length
 template <class Real, int Dim>
 fibre_chain lay_fibre_within(packing<Real, Dim>& to, vec<Real, Dim> const& centre, vec<Real, Dim> const& direction,
                              vec<Real, Dim> low, vec<Real, Dim> high, Real r_min, Real r_max,
                              random_source& random, int material = 1) {
     Real const size = norm(direction);
     if (!(size > Real(0)) || !std::isfinite(size)) refuse("fibre.direction", double(size), "a vector of length > 0");
-    // With the box shrunk by the largest radius, every disc whose centre is inside is inside as a whole.
+    // A disc is inside the box if its centre is inside the box shrunk by the largest radius.
     for (int axis = 0; axis < Dim; ++axis) {
         low[axis] += r_max;
         high[axis] -= r_max;

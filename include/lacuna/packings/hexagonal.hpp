@@ -23,9 +23,10 @@ void bond_touching(packing<Real, Dim>& p, std::int32_t i, std::int32_t j) {
 }
 } // namespace detail
 
-/// `count` equal particles in a touching row along the first axis, the first centre at the origin.
+/// A row of `count` equal, touching particles along the first axis, the first centre at the origin.
 /// \param radius m
 /// \param bonded whether neighbours are bonded
+/// \throws std::invalid_argument for a count below 1, or a radius that is not > 0
 template <class Real, int Dim>
 packing<Real, Dim> chain(int count, Real radius, bool bonded = true, int material = 0) {
     detail::require_count("count", count);
@@ -40,8 +41,11 @@ packing<Real, Dim> chain(int count, Real radius, bool bonded = true, int materia
     return p;
 }
 
-/// `columns` x `rows` equal particles on a square lattice in the plane of the first two axes, first centre at the
-/// origin, numbered row by row from below.
+/// `columns` x `rows` equal particles on a square lattice in the plane of the first two axes. The first centre is at
+/// the origin; numbers go row by row from below.
+/// \param radius m
+/// \param bonded whether neighbours along the axes are bonded
+/// \throws std::invalid_argument for columns or rows below 1, or a radius that is not > 0
 template <class Real, int Dim>
 packing<Real, Dim> square_lattice(int columns, int rows, Real radius, bool bonded = false, int material = 0) {
     detail::require_count("columns", columns);
@@ -60,12 +64,15 @@ packing<Real, Dim> square_lattice(int columns, int rows, Real radius, bool bonde
     return p;
 }
 
-/// Rows of touching equal discs, one above the other, on a hexagonal lattice; numbered row by row from below.
+/// Equal touching discs on a hexagonal lattice. Numbers go row by row from below.
 ///
-/// The first centre is at the origin; odd rows are shifted by one radius.
+/// The first centre is at the origin. Rows 1, 3, 5, ... (the odd rows) are shifted by one radius.
 /// \param columns discs in an even row
-/// \param short_odd_rows odd rows have columns - 1 discs: the outline is symmetric left to right. Needs two columns.
+/// \param radius m
 /// \param bonded whether every touching pair is bonded
+/// \param short_odd_rows whether odd rows have columns - 1 discs, so that left and right are symmetric
+/// \throws std::invalid_argument for columns or rows below 1, one column with short odd rows, or a radius that is not >
+/// 0
 template <class Real, int Dim = 2>
 packing<Real, Dim> hexagonal_rows(int columns, int rows, Real radius, bool bonded = false,
                                   bool short_odd_rows = false, int material = 0) {

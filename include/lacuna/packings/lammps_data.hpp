@@ -19,26 +19,28 @@
 #include <lacuna/packings/particle_list.hpp>
 
 /// \file
-/// Packings in LAMMPS's data files (its command read_data), of the atom styles that have radii:
+/// Packings in LAMMPS data files (its command read_data), for the atom styles that have radii:
 ///
 ///   sphere       id type diameter density x y z
 ///   bpm/sphere   id molecule type diameter density x y z
 ///
-/// each with or without image flags, and sections Velocities (id vx vy vz wx wy wz), Bonds (id type a b), Atom Type Labels
-/// and Bond Type Labels. Numbers are in the units that the title names ("units = micro", as write_data writes them: si, cgs,
-/// micro or nano, converted), else in units si. A type of atoms is a material's number plus 1, a type of bonds plus 1 in
-/// packing.bond_type; densities are in packing.density. Coefficients and masses of types are passed over: parameters are the
-/// model's, and masses follow from densities.
+/// Image flags may follow. Further sections are Velocities (id vx vy vz wx wy wz), Bonds (id type a b), Atom Type
+/// Labels and Bond Type Labels.
 ///
-/// A data file does not say along which axes its box is periodic: the caller does. Along open axes particles must be in
-/// the box, with image flags of 0, and no bond may lead through its sides. Along periodic axes positions are unwrapped by
-/// their image flags, and packing.period is to be given to the domain.
+/// Numbers are converted from the units that the title names, as write_data does: "units = micro"; si, cgs, micro or
+/// nano. Without that, units are si. Material k is atom type k + 1, and entry k of packing.bond_type is bond type k +
+/// 1. Densities go to packing.density. Coefficients and masses of types are ignored: the model has its own parameters,
+/// and masses follow from densities.
+///
+/// A data file does not say along which axes its box is periodic: the caller does. Along non-periodic axes particles
+/// must be in the box, with image flags of 0, and no bond may cross its sides. Along periodic axes positions are
+/// unwrapped with their image flags, and packing.period is set; pass it on to the domain.
 
 namespace lacuna {
 
 namespace detail {
 
-/// One reading of a data file.
+/// Reader of one data file.
 template <int Dim>
 class lammps_reader {
 public:
@@ -79,7 +81,7 @@ private:
     };
     using word_list = std::vector<std::string>;
 
-    /// The next line, without its comment, which is kept.
+    /// Takes the next line, and stores its comment in comment_. \return false at the end of the text
     bool next(std::string& line) {
         std::string_view found;
         if (!take_line(text_, found)) return false;
@@ -94,7 +96,8 @@ private:
         next(line);
         auto const words = words_of(line);
         if (words.size() == 2 && words[1] == "atoms" && lammps_header<Dim>::starts_number(words[0]))
-            refuse_here("title", in_quotes(trimmed(line)), "a title: the first line of a data file is no part of its header");
+            refuse_here("title", in_quotes(trimmed(line)),
+                        "a title: the first line of a data file is not part of its header");
         take_units(line + " " + comment_);
     }
     void take_units(std::string const& text) {
@@ -109,11 +112,13 @@ private:
     [[noreturn]] void refuse_here(std::string const& field, std::string const& value, std::string const& rule) const {
         refuse(where() + (field.empty() ? "" : ": " + field), value, rule);
     }
-    double number(char const* field, std::string const& word) const { return read_number(where() + ": " + field, word); }
+    double number(char const* field, std::string const& word) const {
+        return read_number(where() + ": " + field, word);
+    }
     long long id(char const* field, std::string const& word) const {
         return read_whole(where() + ": " + field, word, 1, std::numeric_limits<long long>::max());
     }
-    /// A number that has to be 0 in the plane.
+    /// Refuses a number other than 0 in the plane.
     void flat(char const* field, std::string const& word) const {
         if (Dim == 2 && number(field, word) != 0) refuse_here(field, word, "0 in the plane");
     }
@@ -122,13 +127,15 @@ private:
     void section(word_list const& words) {
         section_ = words[0];
         for (std::size_t w = 1; w < words.size(); ++w) section_ += " " + words[w];
-        static word_list const known{"Atoms", "Velocities", "Bonds", "Masses", "Pair Coeffs", "PairIJ Coeffs", "Bond Coeffs",
-                                     "Atom Type Labels", "Bond Type Labels"};
+        static word_list const known{"Atoms",       "Velocities",       "Bonds",
+                                     "Masses",      "Pair Coeffs",      "PairIJ Coeffs",
+                                     "Bond Coeffs", "Atom Type Labels", "Bond Type Labels"};
         if (std::find(known.begin(), known.end(), section_) == known.end()) {
             std::string const near = nearest_word(section_, known);
-            refuse_here("", in_quotes(section_), "a section of spheres" + (near.empty() ? "" : " (did you mean \"" + near + "\"?)"));
+            refuse_here("", in_quotes(section_),
+                        "a section of spheres" + (near.empty() ? "" : " (did you mean \"" + near + "\"?)"));
         }
-        if (!sections_.insert(section_).second) refuse_here("", in_quotes(section_), "a section that is not there yet");
+        if (!sections_.insert(section_).second) refuse_here("", in_quotes(section_), "a section that is given once");
         if (section_ == "Atoms") {
             if (comment_ != "sphere" && comment_ != "bpm/sphere")
                 refuse_here("Atoms", in_quotes(comment_), "followed by \"# sphere\" or \"# bpm/sphere\"");
@@ -160,34 +167,39 @@ private:
         if (molecules_) read_whole(where() + ": molecule", words[1], 0, std::numeric_limits<long long>::max());
         atom a{type("atom", words[1 + m]), units_.length(0.5 * number("diameter", words[2 + m])),
                units_.density * number("density", words[3 + m]), {}, number_};
-        if (!(a.radius > 0)) refuse_here("diameter", words[2 + m], "> 0: points are no particles");
+        if (!(a.radius > 0)) refuse_here("diameter", words[2 + m], "> 0: particles cannot be points");
         if (!(a.density > 0) || !std::isfinite(a.density)) refuse_here("density", words[3 + m], "> 0");
         flat("z", words[6 + m]);
         bool const images = words.size() > 7 + m;
         if (images) flat("image flag", words[9 + m]);
         for (int axis = 0; axis < Dim; ++axis) {
             auto const w = std::size_t(axis);
-            a.position[axis] = place(axis, words[4 + m + w], images ? words[7 + m + w] : "0");
+            a.position[axis] = coordinate(axis, words[4 + m + w], images ? words[7 + m + w] : "0");
         }
         if (!atoms_.emplace(id("id", words[0]), a).second) refuse_here("id", words[0], "given once");
     }
-    /// A coordinate, m.
-    double place(int axis, std::string const& word, std::string const& flag) {
+    /// A coordinate of a particle, unwrapped along periodic axes, m.
+    double coordinate(int axis, std::string const& word, std::string const& flag) {
         double const x = number("position", word);
         auto const image = double(read_whole(where() + ": image flag", flag, -2147483648LL, 2147483647));
         bool const boxed = header_.has_box(axis);
         double const low = header_.low(axis), high = header_.high(axis);
         if (periodic_[std::size_t(axis)]) {
-            if (!boxed) refuse_here(lammps_header<Dim>::bounds_name(axis), "(missing)", "given in the header: along this axis the box is periodic");
+            if (!boxed)
+                refuse_here(lammps_header<Dim>::bounds_name(axis), "(missing)",
+                            "given in the header: along this axis the box is periodic");
             double const whole = units_.length(x + image * (high - low));
             if (!std::isfinite(whole)) refuse_here("image flag", flag, "of a finite position");
             return whole;
         }
         if (image != 0)
-            refuse_here("image flag", flag, std::string("0: the box is read as open along ") + "xyz"[axis] + "; reading it as periodic unwraps positions");
-        double const slack = 1e-5 * (high - low); // of bounds written with fewer digits than positions
+            refuse_here("image flag", flag,
+                        std::string("0: the box is read as non-periodic along ") + "xyz"[axis] +
+                            "; reading it as periodic unwraps positions");
+        double const slack = 1e-5 * (high - low); // bounds may be written with fewer digits than positions
         if (boxed && !(x >= low - slack && x <= high + slack))
-            refuse_here("position", word, "within the box, from " + to_text(low) + " to " + to_text(high) + " along " + "xyz"[axis]);
+            refuse_here("position", word,
+                        "within the box, from " + to_text(low) + " to " + to_text(high) + " along " + "xyz"[axis]);
         return units_.length(x);
     }
     void velocity_row(word_list const& words) {
@@ -205,24 +217,28 @@ private:
         atom const& first = known_atom("atom", words[2]);
         atom const& second = known_atom("atom", words[3]);
         bond const b{id("atom", words[2]), id("atom", words[3]), type("bond", words[1]), number_};
-        if (b.a == b.b) refuse_here("atom", words[3], "another than the first");
+        if (b.a == b.b) refuse_here("atom", words[3], "another atom than the first");
         if (!bond_ids_.insert(id("id", words[0])).second) refuse_here("id", words[0], "given once");
-        if (!bonded_.insert(std::minmax(b.a, b.b)).second) refuse_here("Bonds", words[2] + " " + words[3], "a pair that has no bond yet");
-        refuse_long_way(first, second, words);
+        if (!bonded_.insert(std::minmax(b.a, b.b)).second)
+            refuse_here("Bonds", words[2] + " " + words[3], "a pair that has no bond yet");
+        refuse_bond_through_sides(first, second, words);
         bonds_.push_back(b);
     }
-    /// Bonds join nearest images: along open axes one that leads through the box's sides would be made as long as the box.
-    void refuse_long_way(atom const& a, atom const& b, word_list const& words) const {
-        auto way = (b.position - a.position) * units_.in_metre;
+    /// Refuses a bond that crosses a side of the box along a non-periodic axis: it would become as long as the box.
+    void refuse_bond_through_sides(atom const& a, atom const& b, word_list const& words) const {
+        auto apart = (b.position - a.position) * units_.in_metre;
         for (int axis = 0; axis < Dim; ++axis)
-            if (periodic_[std::size_t(axis)]) way[axis] = 0; // the domain's own matter
-        double const within = units_.length(norm(way)), through = units_.length(norm(header_.nearest(way, periodic_)));
+            if (periodic_[std::size_t(axis)]) apart[axis] = 0; // the domain finds the nearest image
+        double const within = units_.length(norm(apart));
+        double const through = units_.length(norm(header_.nearest(apart, periodic_)));
         double const touching = a.radius + b.radius;
-        // A box just large enough for two centres has them as near through its sides: then the way of touching counts.
+        // In a box that just holds two centres, they are as near through its sides: choose the length nearer to
+        // contact.
         if (through < within && std::fabs(through - touching) < std::fabs(within - touching))
             refuse_here("Bonds", words[2] + " " + words[3],
                         "a pair that is nearest within the box: through its sides they are " + to_text(through) +
-                            " m apart, within it " + to_text(within) + " m; such a box is periodic, and is here read as open");
+                            " m apart, within it " + to_text(within) +
+                            " m; such a box is periodic, but is read as non-periodic");
     }
     atom& known_atom(char const* field, std::string const& word) {
         auto const found = atoms_.find(id(field, word));
@@ -234,7 +250,8 @@ private:
             int const expected = header_.count(what);
             if (expected < 0 || found != std::size_t(expected))
                 refuse(name_ + ": " + what, std::to_string(found),
-                       expected < 0 ? "announced in the header" : "as many as the header says, " + std::to_string(expected));
+                       expected < 0 ? "announced in the header"
+                                    : "as many as the header says, " + std::to_string(expected));
         };
         count("atoms", atoms_.size());
         if (atoms_.empty()) refuse(name_ + ": atoms", "0", "at least 1");
@@ -256,7 +273,8 @@ private:
             packing.bond_type.push_back(b.type - 1);
         }
         for (int axis = 0; axis < Dim; ++axis)
-            if (periodic_[std::size_t(axis)]) packing.period[axis] = units_.length(header_.high(axis) - header_.low(axis));
+            if (periodic_[std::size_t(axis)])
+                packing.period[axis] = units_.length(header_.high(axis) - header_.low(axis));
         refuse_particles_given_twice(list_, lines, name_);
     }
 
@@ -269,7 +287,7 @@ private:
     lammps_units units_;
     bool units_named_ = false, molecules_ = false;
     lammps_header<Dim> header_;
-    std::map<long long, atom> atoms_; // by id: the order of lines is of no account
+    std::map<long long, atom> atoms_; // by id: the order of lines does not matter
     std::vector<bond> bonds_;
     std::set<long long> bond_ids_;
     std::set<std::pair<long long, long long>> bonded_;
@@ -279,8 +297,8 @@ private:
 } // namespace detail
 
 /// Reads the text of a data file. Particles are numbered in the order of their ids.
-/// \param name of the file in messages
-/// \param periodic along which axes the box repeats itself
+/// \param name name of the file in messages
+/// \param periodic for each axis: whether the box is periodic along it
 /// \throws std::invalid_argument "name:line: field = value: must be rule"
 template <int Dim>
 particle_list<Dim> parse_lammps_data(std::string_view text, std::string const& name,
@@ -288,7 +306,7 @@ particle_list<Dim> parse_lammps_data(std::string_view text, std::string const& n
     return detail::lammps_reader<Dim>(text, name, periodic).read();
 }
 
-/// The same from a file. \throws std::invalid_argument, also for a file that cannot be read
+/// Reads a data file; see parse_lammps_data(). \throws std::invalid_argument, also for a file that cannot be read
 template <int Dim>
 particle_list<Dim> read_lammps_data(std::string const& path, std::array<bool, std::size_t(Dim)> const& periodic = {}) {
     return parse_lammps_data<Dim>(read_file(path, "data file"), path, periodic);

@@ -14,19 +14,25 @@
 #include <lacuna/packings/particle_list.hpp>
 
 /// \file
-/// Particles in CSV files. A heading names the columns, in any order: position.x, position.y (position.z), radius, and
-/// if wanted material, density, velocity.x, velocity.y (velocity.z), spin (in space spin.x, spin.y, spin.z). SI units.
+/// Particles in CSV files. A heading names the columns, in any order. Required are position.x, position.y (position.z)
+/// and radius; optional are material, density, velocity.x, velocity.y (velocity.z) and spin (in space spin.x, spin.y,
+/// spin.z). Units are SI.
 ///
-/// Files of other programs are read where they mean one thing only: columns named x, y, z, r, vx, diameter, matId;
-/// ParaView's Points:0 or Points_0; capitals; SI units in brackets, as radius [m]; cells parted by semicolons, tabs or
-/// blanks; decimal commas; a heading in a comment, as Yade writes it (the word format, x_y_z_r); in the plane columns of
-/// the third axis that are 0. Empty lines and comments are passed over. A column that says nothing of these is refused.
+/// Files of other programs are read if they are unambiguous. Accepted are
+///   - columns named x, y, z, r, vx, diameter, matId, and ParaView's Points:0 or Points_0, in small letters or
+///     capitals;
+///   - SI units in brackets, such as radius [m];
+///   - cells separated by semicolons, tabs or blanks, and decimal commas;
+///   - a heading in a comment, or as Yade writes it (a comment with the word format, and x_y_z_r);
+///   - in the plane, columns of components out of the plane that contain only 0.
+///
+/// Empty lines and comments are skipped. Any other column is refused.
 
 namespace lacuna {
 
 namespace detail {
 
-/// Names of the columns.
+/// Names of all columns.
 template <int Dim>
 std::vector<std::string> csv_columns() {
     std::vector<std::string> known{"radius", "material"};
@@ -43,39 +49,43 @@ std::vector<std::string> csv_columns() {
     return known;
 }
 
-/// Cuts a unit in brackets off a name: "radius [m]".
+/// Removes a unit in brackets from the end of a name such as "radius [m]".
+/// \return the unit; "-" for empty brackets, an empty text without brackets
 inline std::string csv_cut_unit(std::string& name) {
     char const last = name.empty() ? ' ' : name.back();
-    auto const open = name.find_last_of(last == ']' ? '[' : '(');
-    if ((last != ']' && last != ')') || open == name.npos || open == 0) return {};
-    std::string const unit(trimmed(std::string_view(name).substr(open + 1, name.size() - open - 2)));
-    name = trimmed(std::string_view(name).substr(0, open));
+    auto const bracket = name.find_last_of(last == ']' ? '[' : '(');
+    if ((last != ']' && last != ')') || bracket == name.npos || bracket == 0) return {};
+    std::string const unit(trimmed(std::string_view(name).substr(bracket + 1, name.size() - bracket - 2)));
+    name = trimmed(std::string_view(name).substr(0, bracket));
     return unit.empty() ? "-" : unit;
 }
 
-/// The name that a column has here: of a heading in small letters without its unit; empty for an unknown one.
+/// Our name of a column; empty for an unknown column.
+/// \param name heading of the column in small letters, without its unit
 inline std::string csv_plain_name(std::string const& name) {
     static std::vector<std::pair<std::string, std::string>> const scalars{
-        {"radius", "radius"}, {"r", "radius"}, {"rad", "radius"}, {"diameter", "diameter"}, {"d", "diameter"},
-        {"material", "material"}, {"mat", "material"}, {"matid", "material"}, {"density", "density"}, {"rho", "density"},
-        {"spin", "spin"}, {"omega", "spin"}, {"x", "position.x"}, {"y", "position.y"}, {"z", "position.z"}};
+        {"radius", "radius"},   {"r", "radius"},          {"rad", "radius"},   {"diameter", "diameter"},
+        {"d", "diameter"},      {"material", "material"}, {"mat", "material"}, {"matid", "material"},
+        {"density", "density"}, {"rho", "density"},       {"spin", "spin"},    {"omega", "spin"},
+        {"x", "position.x"},    {"y", "position.y"},      {"z", "position.z"}};
     for (auto const& [given, plain] : scalars)
         if (name == given) return plain;
     static std::vector<std::pair<std::string, std::string>> const vectors{
         {"position", "position"}, {"points", "position"}, {"coordinates", "position"}, {"pos", "position"},
-        {"velocity", "velocity"}, {"vel", "velocity"}, {"v", "velocity"}, {"spin", "spin"}, {"omega", "spin"}, {"w", "spin"}};
+        {"velocity", "velocity"}, {"vel", "velocity"},    {"v", "velocity"},           {"spin", "spin"},
+        {"omega", "spin"},        {"w", "spin"}};
     for (auto const& [given, plain] : vectors) {
         if (!name.starts_with(given)) continue;
         std::string_view rest = std::string_view(name).substr(given.size());
-        bool const parted = !rest.empty() && std::string_view(".:_ ").find(rest[0]) != std::string_view::npos;
-        if (parted) rest.remove_prefix(1);
+        bool const separated = !rest.empty() && std::string_view(".:_ ").find(rest[0]) != std::string_view::npos;
+        if (separated) rest.remove_prefix(1);
         auto const axis = rest.size() == 1 ? std::string_view("xyz012").find(rest[0]) : std::string_view::npos;
-        if (axis != std::string_view::npos && (parted || axis < 3)) return plain + "." + "xyz"[axis % 3];
+        if (axis != std::string_view::npos && (separated || axis < 3)) return plain + "." + "xyz"[axis % 3];
     }
     return {};
 }
 
-/// One reading of a CSV file.
+/// Reader of one CSV file.
 template <int Dim>
 class particle_csv_reader {
 public:
@@ -101,12 +111,13 @@ public:
     }
 
 private:
-    /// The name that a heading's cell has here, or none. \param unit of it in brackets
+    /// Our name of the column with a given heading; empty for an unknown column. \param unit receives the unit in
+    /// brackets
     static std::string plain_name(std::string const& cell, std::string& unit) {
         std::string name = small_letters(cell);
         unit = csv_cut_unit(name);
         std::string const plain = csv_plain_name(name);
-        // In the plane a spin is about the third axis, with or without its name; in space it has three components.
+        // In the plane spin and spin.z mean the same; in space spin needs the name of an axis.
         if (Dim == 2 && plain == "spin.z") return "spin";
         return Dim == 3 && plain == "spin" ? std::string() : plain;
     }
@@ -138,15 +149,17 @@ private:
             if (plain.empty()) refuse_column(cell, where);
             if (!unit.empty()) require_unit(plain, unit, where, cell);
             bool const size_twice = (plain == "radius" && has("diameter")) || (plain == "diameter" && has("radius"));
-            if (has(plain) || size_twice) refuse(where, in_quotes(cell), "a column that is not there yet");
+            if (has(plain) || size_twice) refuse(where, in_quotes(cell), "a column that is given once");
             plain_.push_back(plain);
         }
         for (std::string const& needed : csv_columns<Dim>()) {
             bool const size = needed == "radius" && !has("diameter");
-            if ((size || needed.starts_with("position")) && !has(needed)) refuse(where + ": " + needed, "(missing)", "given");
+            if ((size || needed.starts_with("position")) && !has(needed))
+                refuse(where + ": " + needed, "(missing)", "given");
         }
         if (materials_.size() > 1 && !has("material"))
-            refuse(where + ": material", "(missing)", "given: there are " + std::to_string(materials_.size()) + " materials");
+            refuse(where + ": material", "(missing)",
+                   "given: there are " + std::to_string(materials_.size()) + " materials");
     }
     [[noreturn]] static void refuse_column(std::string const& cell, std::string const& where) {
         auto const known = csv_columns<Dim>();
@@ -156,7 +169,7 @@ private:
         if (!near.empty()) refuse(where, in_quotes(cell), rule + " (did you mean \"" + near + "\"?)");
         std::string all;
         for (auto const& name : known) all += (all.empty() ? "" : ", ") + name;
-        refuse(where, in_quotes(cell), rule + ": " + all + "; leave others out, particles are numbered by rows");
+        refuse(where, in_quotes(cell), rule + ": " + all + "; leave out all others, particles are numbered by rows");
     }
     bool has(std::string_view plain) const { return std::find(plain_.begin(), plain_.end(), plain) != plain_.end(); }
 
@@ -219,7 +232,7 @@ private:
     std::string name_;
     std::vector<std::string> const& materials_;
     csv_table table_;
-    std::vector<std::string> plain_; ///< what each column is
+    std::vector<std::string> plain_; ///< our name of each column
     bool commas_ = false;
     particle_list<Dim> list_;
 };
@@ -227,9 +240,9 @@ private:
 } // namespace detail
 
 /// Reads the text of a CSV file.
-/// \param name of the file in messages
-/// \param materials names that the column material may have; none: it has numbers from 0 on. Without that column all
-///        particles are of the first material
+/// \param name name of the file in messages
+/// \param materials names that the column material contains. If there are none, it contains numbers from 0 on. If there
+///        is no such column, all particles have material 0; it may be missing only if there is at most one name.
 /// \throws std::invalid_argument "name:line: column = value: must be rule"
 template <int Dim>
 particle_list<Dim> parse_particle_csv(std::string_view text, std::string const& name,
@@ -237,14 +250,14 @@ particle_list<Dim> parse_particle_csv(std::string_view text, std::string const& 
     return detail::particle_csv_reader<Dim>(text, name, materials).read();
 }
 
-/// The same from a file. \throws std::invalid_argument, also for a file that cannot be read
+/// Reads a CSV file; see parse_particle_csv(). \throws std::invalid_argument, also for a file that cannot be read
 template <int Dim>
 particle_list<Dim> read_particle_csv(std::string const& path, std::vector<std::string> const& materials = {}) {
     return parse_particle_csv<Dim>(read_file(path, "particle file"), path, materials);
 }
 
-/// The text of a CSV file that parse_particle_csv() reads back to the same numbers; materials by number, densities where
-/// there are any. Bonds are not in it.
+/// The text of a CSV file from which parse_particle_csv() reads the same numbers. Materials are written by number,
+/// densities if there are any. Bonds are not written.
 template <int Dim>
 std::string particle_csv(particle_list<Dim> const& list) {
     auto const& packing = list.packing;

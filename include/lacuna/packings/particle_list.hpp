@@ -13,17 +13,17 @@
 
 namespace lacuna {
 
-/// A packing and how its particles move, as files of particles hold them. SI units.
+/// Content of a file of particles: a packing, and the velocities of its particles. SI units.
 template <int Dim>
 struct particle_list {
     lacuna::packing<double, Dim> packing;
-    std::vector<vec<double, Dim>> velocity;            ///< of each particle, m/s
-    std::vector<vec<double, rotation_dim<Dim>>> spin;  ///< of each particle, rad/s
-    /// Of each particle where the file has it, else none, kg/m^3: what was read. A simulation goes by packing.density.
+    std::vector<vec<double, Dim>> velocity;           ///< of each particle, m/s
+    std::vector<vec<double, rotation_dim<Dim>>> spin; ///< of each particle, rad/s
+    /// Density of each particle as read, kg/m^3; empty if the file has none. Simulations use packing.density.
     std::vector<double> density;
 
     std::size_t size() const noexcept { return packing.size(); }
-    /// Appends a particle that rests.
+    /// Appends a particle at rest.
     void add(vec<double, Dim> const& x, double radius, int material = 0) {
         packing.add(x, radius, material);
         velocity.push_back({});
@@ -31,7 +31,7 @@ struct particle_list {
     }
 };
 
-/// Gives the particles of a simulation the velocities and spins of the list that it was made of.
+/// Sets the velocities and spins of a simulation's particles to those of the list from which it was made.
 template <class Simulation, int Dim>
 void set_motion(Simulation& sim, particle_list<Dim> const& list) {
     for (std::size_t k = 0; k < list.size(); ++k) {
@@ -42,8 +42,9 @@ void set_motion(Simulation& sim, particle_list<Dim> const& list) {
 
 namespace detail {
 
-/// \param line of each particle in its file
-/// \throws std::invalid_argument for two particles at one place: a file that says something twice
+/// Refuses two particles in the same position, since the file probably repeats a particle.
+/// \param line line number of each particle in its file
+/// \throws std::invalid_argument naming the first line that repeats a position
 template <int Dim>
 void refuse_particles_given_twice(particle_list<Dim> const& list, std::vector<std::size_t> const& line,
                                   std::string const& name) {
@@ -56,7 +57,7 @@ void refuse_particles_given_twice(particle_list<Dim> const& list, std::vector<st
         return line[a] < line[b];
     };
     std::sort(order.begin(), order.end(), less);
-    std::size_t first = 0, second = 0; // the lowest line that repeats another
+    std::size_t first = 0, second = 0; // `second` is the lowest line that repeats a position, that of line `first`
     for (std::size_t k = 1; k < order.size(); ++k) {
         bool same = true;
         for (int axis = 0; axis < Dim; ++axis) same = same && x[order[k - 1]][axis] == x[order[k]][axis];
@@ -66,7 +67,7 @@ void refuse_particles_given_twice(particle_list<Dim> const& list, std::vector<st
     }
     if (second > 0)
         refuse(name + ":" + std::to_string(second) + ": position", "that of line " + std::to_string(first),
-               "another: two particles cannot be at one place");
+               "another: two particles cannot have the same position");
 }
 
 } // namespace detail

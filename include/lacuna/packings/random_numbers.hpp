@@ -8,8 +8,8 @@
 
 namespace lacuna {
 
-/// The random numbers of the packing generators: the same seed gives the same numbers with every compiler and
-/// standard library, which the distributions of `<random>` do not promise.
+/// Random numbers of the packing generators. The same seed gives the same numbers with every compiler and standard
+/// library; the distributions of `<random>` do not guarantee that.
 class random_source {
 public:
     explicit random_source(std::uint64_t seed) : engine_(seed) {}

@@ -12,23 +12,24 @@
 
 namespace lacuna {
 
-/// A side of a packing's rectangle: a hard side keeps whole discs inside, a free one only their centres.
+/// Kind of a side of a packing's rectangle: a hard side keeps whole discs inside, a free side only their centres.
 enum class packing_side { hard, free };
 
-/// What random_packing is to make. Lengths in m.
+/// Parameters of random_packing().
 struct random_packing_parameters {
-    double width = 120e-6;           ///< of the rectangle, from x = 0, m
-    double height = 300e-6;          ///< of the rectangle, from y = 0, m
-    double r_min = 1.5e-6;           ///< smallest radius, m
-    double r_max = 2e-6;             ///< largest radius, m
-    double area_fraction = 0.84;     ///< covered part of the rectangle, obstacles included; clipped at free sides
-    double overlap_tolerance = 0.01; ///< largest overlap of a pair, relative to its smaller radius
-    double fraction_tolerance = 0.01; ///< how far the area fraction may stay below its target
+    double width = 120e-6;            ///< of the rectangle, from x = 0, m
+    double height = 300e-6;           ///< of the rectangle, from y = 0, m
+    double r_min = 1.5e-6;            ///< smallest radius, m
+    double r_max = 2e-6;              ///< largest radius, m; at most 4 r_min
+    double area_fraction = 0.84;      ///< share of the rectangle that discs and obstacles cover, 0 to 0.9069
+    double overlap_tolerance = 0.01;  ///< largest overlap of a pair over its smaller radius, 1e-4 to 0.1
+    double fraction_tolerance = 0.01; ///< largest shortfall of the area fraction; > 0
     packing_side left_right = packing_side::hard;
     packing_side bottom_top = packing_side::hard;
     int material = 0;                ///< of the new discs
     std::uint64_t seed = 1;
 
+    /// \throws std::invalid_argument naming field, value and rule.
     void validate() const {
         require_positive("random_packing.width", width);
         require_positive("random_packing.height", height);
@@ -53,7 +54,7 @@ inline void append_mobile(disc_bed const& bed, double unit, int material, packin
     for (std::size_t i = bed.fixed; i < bed.x.size(); ++i) to.add(unit * bed.x[i], unit * bed.r[i], material);
 }
 
-/// A rectangle [low, high] with the discs of a packing as obstacles, in units of `unit`.
+/// A bed in the rectangle [low, high] (m) with the discs of a packing as obstacles. Its unit of length is `unit` (m).
 inline disc_bed make_bed(packing<double, 2> const& obstacles, vec<double, 2> const& low, vec<double, 2> const& high,
                          double unit) {
     disc_bed bed;
@@ -69,14 +70,14 @@ inline disc_bed make_bed(packing<double, 2> const& obstacles, vec<double, 2> con
 
 } // namespace detail
 
-/// Random discs in the rectangle [0, width] x [0, height], radii uniform in [r_min, r_max].
+/// Random discs in the rectangle [0, width] x [0, height], with radii uniform in [r_min, r_max].
 ///
-/// Scattered discs push each other apart until no overlap exceeds the tolerance; above the density at which that
-/// jams, radii are exchanged between squeezed and loose discs at constant covered area.
-/// \param obstacles discs that stay as they are and come first in the result, with their bonds; m
-/// \return obstacles, then the new discs
-/// \throws std::invalid_argument on a bad parameter, and when the target area fraction (less the tolerance)
-///         cannot be reached without larger overlaps
+/// Scattered discs repel each other until no overlap exceeds the tolerance. Above the density at which they jam,
+/// squeezed discs shrink and loose ones grow, at constant covered area; then radii are no longer uniform.
+/// \param obstacles discs that stay unchanged, m
+/// \return the obstacles with their bonds, then the new discs
+/// \throws std::invalid_argument for a bad parameter, or if the area fraction (less its tolerance) cannot be reached
+///         without larger overlaps
 template <class Real = double>
 packing<Real, 2> random_packing(random_packing_parameters const& p, packing<double, 2> const& obstacles = {}) {
     p.validate();
@@ -90,7 +91,7 @@ packing<Real, 2> random_packing(random_packing_parameters const& p, packing<doub
     double const wanted = p.area_fraction * box - detail::area_inside(bed, 0, bed.fixed);
     double const enough = 0.5 * p.overlap_tolerance * range.low;
 
-    // Discs at a free side lie partly outside: the rectangle that they cover is wider by a radius there.
+    // Discs at a free side lie partly outside: the rectangle that they cover is a radius wider there.
     double const grow = (bed.high[0] + (bed.hard[0] ? 0.0 : 2.0)) * (bed.high[1] + (bed.hard[1] ? 0.0 : 2.0)) / box;
     detail::scatter(bed, random, range, std::max(0.0, wanted) * grow);
     detail::disc_relaxer relaxer(bed);

@@ -12,8 +12,8 @@
 
 namespace lacuna::detail {
 
-/// Discs in a rectangle that push each other apart, in units in which the mean radius is about 1.
-/// The first `fixed` discs are obstacles: they neither move nor change their radius.
+/// Discs in a rectangle that repel each other. The unit of length is such that the mean radius is about 1. The first
+/// `fixed` discs are obstacles: they neither move nor change their radius.
 struct disc_bed {
     std::vector<vec<double, 2>> x;
     std::vector<double> r;
@@ -22,7 +22,7 @@ struct disc_bed {
     vec<double, 2> high{};
     bool hard[2] = {true, true}; ///< per axis: the whole disc stays inside (else only its centre)
 
-    /// How deep disc i reaches across the sides of an axis: below (positive), above (negative), or 0.
+    /// Overlap of disc i with the sides across an axis: positive at the lower side, negative at the upper one, or 0.
     double side_overlap(std::size_t i, int axis) const {
         double const reach = hard[axis] ? r[i] : 0.0;
         double const below = low[axis] + reach - x[i][axis];
@@ -38,10 +38,10 @@ class disc_relaxer {
 public:
     explicit disc_relaxer(disc_bed& bed) : bed_(bed) {}
 
-    /// To be called after discs were added or removed, or radii were changed by more than `skin`/4 in all.
+    /// Call it after adding or removing discs, and after changing radii by more than `skin`/4 in total.
     void reset() { listed_at_.clear(); }
 
-    /// Runs at most `steps` steps; stops early when no overlap exceeds `enough` or forces are balanced.
+    /// Takes at most `steps` steps. Stops early if no overlap exceeds `enough`, or if forces are balanced.
     void run(int steps, double enough) {
         std::size_t const n = bed_.x.size();
         velocity_.assign(n, vec<double, 2>{0, 0});
@@ -57,9 +57,9 @@ public:
                 f2 += squared_norm(force_[i]);
             }
             if (power > 0) {
-                double const turn = f2 > 0 ? mixing * std::sqrt(v2 / f2) : 0.0;
+                double const steering = f2 > 0 ? mixing * std::sqrt(v2 / f2) : 0.0;
                 for (std::size_t i = bed_.fixed; i < n; ++i)
-                    velocity_[i] = (1 - mixing) * velocity_[i] + turn * force_[i];
+                    velocity_[i] = (1 - mixing) * velocity_[i] + steering * force_[i];
                 if (++downhill > 5) {
                     dt = std::min(dt * 1.1, 0.45);
                     mixing *= 0.99;
@@ -78,10 +78,12 @@ public:
         forces();
     }
 
-    /// Per disc, the sum of its overlaps with others and the sides, of the last forces.
+    /// For each disc the sum of its overlaps with other discs and the sides, at the last call of forces().
     std::vector<double> const& pressure() const { return pressure_; }
+    /// At the last call of forces().
     double largest_overlap() const { return largest_overlap_; }
 
+    /// Computes forces and overlaps in the present positions.
     void forces() {
         if (stale()) list();
         std::size_t const n = bed_.x.size();
@@ -123,7 +125,7 @@ public:
         mean_overlap_ = contacts ? sum / double(contacts) : 0.0;
     }
 
-    /// Calls visit(i, j) for every listed pair (i mobile; j mobile with j > i, or an obstacle).
+    /// Calls visit(i, j) for every pair in the neighbour list: i is mobile; j is mobile with j > i, or an obstacle.
     template <class Visit>
     void for_each_pair(Visit&& visit) {
         if (stale()) list();
