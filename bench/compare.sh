@@ -32,8 +32,8 @@ done
 
 say() { echo "compare: $*" >&2; }
 
-sh "$root/cmake/dependencies.sh" demo >&2
-command -v lmp >/dev/null 2>&1 || sh "$root/cmake/dependencies.sh" demo lammps >&2 || say "LAMMPS could not be installed"
+sh "$root/cmake/dependencies.sh" bench >&2
+command -v lmp >/dev/null 2>&1 || sh "$root/cmake/dependencies.sh" bench lammps >&2 || say "LAMMPS could not be installed"
 lammps=$(command -v lmp || true)
 
 scratch=$(mktemp -d)

@@ -1,8 +1,9 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# sh cmake/dependencies.sh PROGRAM|documentation|check|coverage|nightly [more Debian packages]: installs the packages that are
-# missing on Debian or Ubuntu, as root or through sudo; does nothing when all are there. LACUNA_SKIP_DEPENDENCIES=1 skips it.
+# sh cmake/dependencies.sh PROGRAM|documentation|bench|check|coverage|nightly [more Debian packages]: installs the packages
+# that are missing on Debian or Ubuntu, as root or through sudo; does nothing when all are there. LACUNA_SKIP_DEPENDENCIES=1
+# skips it.
 set -eu
 
 case "${1:-}" in
@@ -24,6 +25,9 @@ poroelasticity)
 documentation)
     wanted="g++ make cmake libeigen3-dev libnanoflann-dev doxygen libjs-mathjax"
     ;;
+bench)
+    wanted="g++ make cmake libeigen3-dev libnanoflann-dev libqhull-dev libbenchmark-dev"
+    ;;
 check)
     wanted="g++ make cmake libeigen3-dev libnanoflann-dev libqhull-dev libcairo2-dev libcli11-dev
         libtomlplusplus-dev nlohmann-json3-dev libcereal-dev libnlopt-dev zlib1g-dev catch2 libbenchmark-dev
@@ -41,7 +45,7 @@ nightly)
     exec sh "$0" check clang libomp-dev "$@"
     ;;
 *)
-    echo "usage: sh cmake/dependencies.sh cartilage|lacuna-run|uniaxial|poroelasticity|documentation|check|coverage|nightly" \
+    echo "usage: sh cmake/dependencies.sh cartilage|lacuna-run|uniaxial|poroelasticity|documentation|bench|check|coverage|nightly" \
         "[more Debian packages]" >&2
     exit 2
     ;;
