@@ -55,7 +55,7 @@ function(readme_page label title text)
   file(WRITE "${OUT}/pages/${label}.md" "# ${title} {#${label}}\n${text}")
 endfunction()
 
-section(program "A program of one's own" README.md)
+section(program "Your own program" README.md)
 if(NOT program MATCHES "(```cpp\n[^`]*```)\n\nIt prints `([^`]*)`")
   message(FATAL_ERROR "README.md has no program, or does not say what it prints")
 endif()

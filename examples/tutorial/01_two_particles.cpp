@@ -2,8 +2,8 @@
 //
 // 1. Two particles. A model, a packing, parameters, a run.
 //
-// A disc flies at another that rests. They touch as two masses on a spring: the overlap reaches v sqrt(m_eff / k) with
-// m_eff = m / 2, and when they part the first rests and the second flies on with its velocity.
+// A disc flies at another one that rests. While they touch they are two masses on a spring: the overlap reaches
+// v sqrt(m_eff / k) with m_eff = m / 2. When they part, the first rests and the second has its velocity.
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,7 @@
 
 #include "check.hpp"
 
-// The parts of the simulator. All are the default's: springs with friction where particles touch, no fluid, 2D.
+// The parts of the simulator. These are the defaults: springs with friction between particles that touch, no fluid.
 struct model : lacuna::default_model<2> {};
 
 int main() {
@@ -27,9 +27,9 @@ int main() {
     lacuna::simulation_parameters<model> p;
     p.materials[0].density = 4 / std::numbers::pi; // 1 kg per disc: density pi r^2 times a thickness of 1 m
     p.materials[0].contact = {.normal_stiffness = stiffness, .shear_stiffness = stiffness, .friction = 0};
-    p.safety = 0.05; // a step of a twentieth of the longest stable one: 150 steps in this collision
+    p.safety = 0.05; // the step is a twentieth of the longest stable one: 150 steps in this collision
 
-    lacuna::simulation<model> sim(discs, p); // checks all it is given
+    lacuna::simulation<model> sim(discs, p); // refuses bad packings and parameters
     sim.set_velocity(0, {speed, 0.0});
 
     double deepest = 0;

@@ -2,8 +2,8 @@
 //
 // 2. A bonded chain. Bonds, supports, loads, damping.
 //
-// Eleven discs, glued one to the next, hang from the first. Pulled by F at the last the ten springs lengthen by
-// 10 F / k. Local damping brings the chain to rest there.
+// Eleven discs in a row are bonded, each to the next. The first is held, a force F pulls the last: the ten springs get
+// longer by 10 F / k together. Local damping brings the chain to rest.
 
 #include <cstdio>
 
@@ -13,7 +13,7 @@
 #include "check.hpp"
 
 struct model : lacuna::default_model<2> {
-    using damping = lacuna::local_damping; // a part overridden by its name
+    using damping = lacuna::local_damping; // replaces one part of the default model
 };
 
 int main() {
@@ -26,8 +26,8 @@ int main() {
     p.damping.factor = 0.3;
 
     lacuna::simulation<model> sim(discs, p);
-    sim.fix(0);               // keeps the velocity it has: none
-    sim.apply(10, {pull, 0}); // at once; a fourth argument would be the time within which it rises
+    sim.fix(0);               // keeps its velocity, which is zero
+    sim.apply(10, {pull, 0}); // at once; apply(10, force, torque, ramp_time) rises within ramp_time
 
     long long const steps = sim.run(20000);
     double const longer = sim.position(10)[0] - discs.position[10][0];

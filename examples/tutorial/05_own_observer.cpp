@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// 5. An observer of one's own: looks on, counts, and stops the run.
+// 5. Your own observer: it measures and stops the run.
 //
-// Two bonded discs swing against each other. The observer notes when their distance passes the length at rest on the
-// way out; between two such instants lies a period, 2 pi sqrt(m_eff / k). A hook that is misspelt, or not among the
-// stages, does not compile.
+// Two bonded discs oscillate. The observer records when their distance passes the rest length on the way out. Two such
+// instants are a period apart, 2 pi sqrt(m_eff / k). A hook that is misspelt, or whose stage is not declared, does not
+// compile.
 
 #include <cmath>
 #include <cstdio>

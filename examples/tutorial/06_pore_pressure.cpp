@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// 6. Pore pressure. Discs, the pores between them, and fluid that flows from one to the other.
+// 6. Pore pressure. Discs, the pores between them, and fluid that flows from pore to pore.
 //
-// Four discs that are held enclose two equal pores with one throat between them. One starts at a pressure p, the other
-// at none. Each changes at C K_f / V times the difference, so that the difference decays as exp(-2 C K_f t / V).
+// Four discs that are held enclose two equal pores with one throat between them. One pore starts at 1000 Pa, the other
+// at zero. Each pressure changes at the rate C K_f / V times the difference, which therefore decays as
+// exp(-2 C K_f t / V).
 
 #include <cmath>
 #include <cstdio>
@@ -16,7 +17,7 @@
 #include "check.hpp"
 
 struct model : lacuna::default_model<2> {
-    using flow = lacuna::explicit_flow_with<lacuna::constant_aperture>; // eq. 14 to 19 with throats of one width
+    using flow = lacuna::explicit_flow_with<lacuna::constant_aperture>; // eq. 14 to 19 with throats of one aperture
 };
 
 int main() {
@@ -41,8 +42,8 @@ int main() {
     });
     sim.flow().set_pressure(0, 1000); // Pa
 
-    double const volume = half_height / 2 - std::numbers::pi * radius * radius / 2; // triangle less three sixths of a disc
-    double const decay = 2 * 1e-12 * 1e9 / volume;                                  // 1/s
+    double const volume = half_height / 2 - std::numbers::pi * radius * radius / 2; // less three sectors of 60 degrees
+    double const decay = 2 * 1e-12 * 1e9 / volume; // 1/s
     sim.run(std::llround(1 / decay / p.time_step));
 
     auto const& pores = sim.flow().network();

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// 7. A checkpoint. Stop, save, and go on elsewhere as if nothing had been.
+// 7. A checkpoint. Stop, save, and continue elsewhere as if the run had never been stopped.
 //
-// A row of discs is run over by another disc and breaks. Once it runs through; once it is saved amid the
-// breaking, built anew and put into the saved state. The two ends differ in no bit: not by a small number, by zero.
+// A disc hits a bonded row of discs and breaks it. One run goes through. Another one is saved while bonds break, built
+// again and restored. The two ends have the same bits: they differ by zero, not by a small number.
 
 #include <cmath>
 #include <cstdio>
@@ -16,8 +16,9 @@
 
 struct model : lacuna::default_model<2> {};
 
-// To go on, a simulation is built as it was built before: the file has the state, and compares the rest. What differs is
-// refused in one line; calls made after load_checkpoint(), a new load for one, hold from there on.
+// To continue, build the simulation as it was built before. The file holds the state; it also holds settings, particles
+// and bonds, and load_checkpoint() refuses in one line what differs. Calls after load_checkpoint(), such as a new load,
+// hold from there on.
 lacuna::simulation<model> build() {
     auto discs = lacuna::chain<double, 2>(9, 0.5);
     discs.add({4.2, 1.001}, 0.5);
@@ -41,7 +42,7 @@ int main() {
     auto first = build();
     cracks first_cracks;
     first.run(saved_at, first_cracks);
-    lacuna::save_checkpoint(file, first, first_cracks); // what an observer has gathered belongs to the run
+    lacuna::save_checkpoint(file, first, first_cracks); // the events so far belong to the run
 
     auto second = build();
     cracks second_cracks;
@@ -54,6 +55,6 @@ int main() {
         difference += norm(whole.position(k) - second.position(k)) + norm(whole.velocity(k) - second.velocity(k));
     std::printf("%zu bonds broke before the checkpoint, %zu in all, %zu in the run that went through\n",
                 first_cracks.events().size(), second_cracks.events().size(), whole_cracks.events().size());
-    if (whole_cracks.events().empty()) return 1; // then there would be little to compare
+    if (whole_cracks.events().empty()) return 1; // no bond broke: the comparison would prove little
     return tutorial::check("difference of all positions and velocities", difference, 0, 0);
 }

@@ -2,9 +2,9 @@
 //
 // 8. The stable time step, and what happens beyond it.
 //
-// The paper's eq. 9 gives sqrt(m / k) for a chain. But discs that are bonded also turn: with k_s = k_n the fastest
-// swing of a long chain is that in which all discs turn alike, of frequency sqrt(8 k / m), and the longest step 2 over
-// it: 0.71 of eq. 9. The library's bound is rigorous: never above the true limit.
+// The paper's eq. 9 gives sqrt(m / k) for a chain. But bonded discs also rotate. With k_s = k_n the fastest mode of a
+// long chain is the one in which all discs rotate alike. Its frequency is sqrt(8 k / m), and the longest stable step is
+// 2 over that frequency: 0.71 of eq. 9. The library's bound is rigorous: it is never above the true limit.
 
 #include <cmath>
 #include <cstdio>
@@ -26,12 +26,12 @@ lacuna::simulation<model> chain(double time_step) {
     return sim;
 }
 
-/// Whether a run of 5,000 steps is stopped because its energy runs away.
+/// Whether a guard stops a run of 5,000 steps.
 bool runs_away(double time_step) {
     auto sim = chain(time_step);
     try {
         sim.run(5000);
-    } catch (lacuna::unstable_run const&) { // it names step, time, particle and the likely cause
+    } catch (lacuna::unstable_run const&) { // its message names step, time, particle and likely cause
         return true;
     }
     return false;
@@ -45,7 +45,7 @@ int main() {
         double const middle = (stable + unstable) / 2;
         (runs_away(middle) ? unstable : stable) = middle;
     }
-    std::printf("eq. 9: %.4g s; the library's bound: %.4g s; tried out: stable at %.4g s, unstable at %.4g s\n",
+    std::printf("eq. 9: %.4g s; the library's bound: %.4g s; found by trial: stable at %.4g s, unstable at %.4g s\n",
                 limits.wave_limit, limits.rigorous, stable, unstable);
     return tutorial::check("longest stable step over eq. 9", stable / limits.wave_limit, 1 / std::sqrt(2.0), 1e-2);
 }

@@ -2,8 +2,8 @@
 //
 // 9. Three dimensions: the same templates with another number.
 //
-// A sphere is thrown along a rough floor without spin. Friction slows it and sets it turning, until it rolls: then it
-// has 5/7 of its velocity (a disc has 2/3), whatever the friction is.
+// A sphere is thrown along a rough floor without spin. Friction slows it and spins it up until it rolls. Then it has
+// 5/7 of its velocity (a disc would have 2/3), whatever the friction.
 
 #include <cstdio>
 #include <numbers>
@@ -13,7 +13,7 @@
 #include "check.hpp"
 
 struct model : lacuna::default_model<3> {
-    using damping = lacuna::viscous_damping; // along the normal: the sphere does not hop
+    using damping = lacuna::viscous_damping; // along the normal, so that the sphere does not hop
 };
 
 int main() {
@@ -21,7 +21,7 @@ int main() {
     double const mass = 2500 * 4 * std::numbers::pi * radius * radius * radius / 3, stiffness = 1e4;
 
     lacuna::packing<double, 3> spheres;
-    spheres.add({0.0, 0.0, radius - mass * gravity / stiffness}, radius); // as deep as its weight presses it
+    spheres.add({0.0, 0.0, radius - mass * gravity / stiffness}, radius); // at the overlap that carries its weight
 
     lacuna::simulation_parameters<model> p;
     p.materials[0] = {.density = 2500, .contact = {stiffness, stiffness, friction}};
