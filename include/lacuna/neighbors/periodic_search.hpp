@@ -30,7 +30,7 @@ public:
     }
 
     /// See neighbor_search.
-    /// \throws std::invalid_argument also for a period below twice the reach, where two images could be in reach
+    /// \throws std::invalid_argument also for a period below twice the reach: two images could be in reach
     void build(points_view<real_type, dim> const& points, real_type cutoff) {
         detail::require_finite_points(points);
         detail::require_length("cutoff", cutoff);

@@ -12,19 +12,19 @@
 #include <lacuna/core/whole_file.hpp>
 
 /// \file
-/// The envelope of a checkpoint: what is around the state in the file, and how it is told apart from anything else.
+/// The file format of a checkpoint, in which the state is embedded. Numbers are lengths in bytes:
 ///
-///   magic, 8 bytes | byte order, 4 | format, 4 | library version, 3 x 4 | length of the model's name, 4 | the name |
-///   length, 8, and bytes of: what a program was told | what the simulation was given | the state |
-///   checksum of all before, 8 | end mark, 8
+///   magic, 8 | byte order, 4 | format, 4 | library version, 3 x 4 | length of the model's name, 4 | the name |
+///   length, 8, and bytes of each: input of the program | input of the simulation | state |
+///   checksum of all bytes before, 8 | end mark, 8
 
 namespace lacuna {
 
-/// 64-bit FNV-1a. Each step is a bijection of the sum so far: one changed byte always changes the result.
+/// 64-bit FNV-1a hash. Each step is a bijection of the sum so far: one changed byte always changes the result.
 class checksum {
 public:
     checksum() = default;
-    /// Goes on from the sum of what came before.
+    /// Continues from the sum of the bytes before.
     explicit checksum(std::uint64_t before) noexcept : sum_(before) {}
     void add(void const* data, std::size_t size) noexcept {
         auto const* byte = static_cast<unsigned char const*>(data);
@@ -47,12 +47,12 @@ public:
     using std::runtime_error::runtime_error;
 };
 
-/// What a checkpoint holds.
+/// The content of a checkpoint.
 struct checkpoint_content {
     std::string model; ///< dimension, precision and the names of the parts
-    std::string given; ///< bytes: what was stated and never changes, to be compared
+    std::string given; ///< bytes: constant input of the simulation, which a resumed simulation compares
     std::string state; ///< bytes
-    std::string told{}; ///< of a program that compares what it was told itself: its own bytes
+    std::string told{}; ///< bytes: input of the program, if it stores it; the program itself compares it
 };
 
 namespace detail {
@@ -80,7 +80,7 @@ bool take(std::string_view& from, T& value) {
 
 } // namespace detail
 
-/// The file's bytes.
+/// Returns the bytes of the file.
 inline std::string pack_checkpoint(checkpoint_content const& content) {
     std::string bytes(detail::checkpoint_magic, 8);
     detail::put(bytes, detail::checkpoint_byte_order);
@@ -97,9 +97,9 @@ inline std::string pack_checkpoint(checkpoint_content const& content) {
     return bytes;
 }
 
-/// The content of a file's bytes, if they are a whole and sound checkpoint of this or an earlier version.
+/// Reads the bytes of a file.
 /// \param name of the file, for the message
-/// \throws checkpoint_error
+/// \throws checkpoint_error unless they are a complete and sound checkpoint of this or an earlier version
 inline checkpoint_content unpack_checkpoint(std::string_view bytes, std::string const& name) {
     auto const refuse_file = [&](std::string const& why) { throw checkpoint_error("checkpoint " + name + ": " + why); };
     std::string_view rest = bytes;
@@ -107,17 +107,17 @@ inline checkpoint_content unpack_checkpoint(std::string_view bytes, std::string 
     rest.remove_prefix(8);
     std::uint32_t order = 0, format = 0, version[3] = {0, 0, 0}, name_length = 0;
     std::uint64_t length = 0, sum = 0;
-    auto const need = [&](bool there) {
-        if (!there) refuse_file("it is truncated");
+    auto const need = [&](bool complete) {
+        if (!complete) refuse_file("it is truncated");
     };
     need(detail::take(rest, order) && detail::take(rest, format) && detail::take(rest, version) &&
          detail::take(rest, name_length));
     if (order != detail::checkpoint_byte_order) refuse_file("it comes from a machine with another byte order, or is corrupted");
     auto const& ours = detail::checkpoint_version;
     bool newer = format > detail::checkpoint_format;
-    for (int k = 0, open = 1; k < 3 && open; ++k) {
+    for (int k = 0, equal = 1; k < 3 && equal; ++k) {
         newer = newer || version[k] > ours[k];
-        open = version[k] == ours[k];
+        equal = version[k] == ours[k];
     }
     if (newer)
         refuse_file("it was written by a newer version, " + detail::version_text(version) + " in format " +
@@ -140,8 +140,8 @@ inline checkpoint_content unpack_checkpoint(std::string_view bytes, std::string 
     return content;
 }
 
-/// Writes a checkpoint: under a temporary name, forced to the disk, then renamed. Killed at any moment, it leaves the
-/// file that was there or the new one.
+/// Writes a checkpoint under a temporary name, forces it to the disk, and renames it. A program that is killed at any
+/// moment leaves the previous file or the new one.
 /// \throws std::runtime_error naming the path and the system's reason
 inline void write_checkpoint(std::string const& path, checkpoint_content const& content) {
     whole_file file(path);
@@ -149,7 +149,7 @@ inline void write_checkpoint(std::string const& path, checkpoint_content const& 
     file.commit_to_disk();
 }
 
-/// \throws checkpoint_error when the file cannot be read or unpack_checkpoint() refuses it
+/// Reads a checkpoint. \throws checkpoint_error if the file cannot be read or unpack_checkpoint() refuses it
 inline checkpoint_content read_checkpoint(std::string const& path) {
     std::FILE* file = std::fopen(path.c_str(), "rb");
     if (file == nullptr) throw checkpoint_error("checkpoint " + path + ": cannot read it: " + std::strerror(errno));

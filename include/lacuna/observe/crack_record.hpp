@@ -7,7 +7,7 @@
 
 namespace lacuna {
 
-/// Observer that keeps every bond failure of a run, in order.
+/// Observer that records every bond failure of a run, in order.
 /// \tparam Event the simulation's break_event
 template <class Event>
 class crack_record {

@@ -17,10 +17,10 @@
 
 namespace lacuna {
 
-/// Who holds a lock: what stands in its file.
+/// The owner of a lock, as recorded in its file.
 struct lock_owner {
     long process = 0;
-    std::string started; ///< when, in the words of the system (/proc); empty where it does not tell
+    std::string started; ///< start time of the process as text from /proc; empty if the system has no /proc
     std::string host;
 
     std::string text() const { return std::to_string(process) + " " + (started.empty() ? "-" : started) + " " + host + "\n"; }
@@ -46,8 +46,8 @@ struct lock_owner {
 #endif
         return o;
     }
-    /// Whether it may still be at work: not when no process of this host has its number, or a later one has it. Of other hosts
-    /// nothing is known.
+    /// True if the owner may still be running. False if no process of this host has its number, or a later process has
+    /// it. An owner on another host is assumed to be running.
     bool may_run() const {
 #if __has_include(<unistd.h>)
         if (process <= 0) return false;
@@ -69,7 +69,7 @@ private:
         char buffer[2048];
         std::string const line(buffer, std::fread(buffer, 1, sizeof buffer, file));
         std::fclose(file);
-        // Field 2 is the program's name in brackets, which may hold blanks and brackets.
+        // Field 2 is the program's name in brackets, which may itself contain blanks and brackets.
         std::size_t at = line.rfind(')');
         for (int field = 2; field < 22 && at != std::string::npos; ++field) at = line.find(' ', at + 1);
         if (at == std::string::npos) return {};
@@ -77,10 +77,10 @@ private:
     }
 };
 
-/// Lock of one process on a directory, or on a part of what is in it: a file that is there as long as it is held. The system
-/// keeps the lock (flock), so that it ends with its process, killed or not; the file says who has it. A file system that keeps no
-/// locks leaves it to the file: then an owner that cannot be at work any more has lost it, and two that come in the same
-/// instant are not told apart. Network file systems keep locks between hosts where their servers do.
+/// Lock of one process on a directory, or on a part of its content: a file that exists while the lock is held and
+/// records its owner. The lock itself is the system's (flock), so that it ends with its process, killed or not. On a
+/// file system without locks, the file alone is the lock: an owner that no longer runs has lost it, and two processes
+/// that come at the same instant may both get it. Network file systems lock across hosts if their servers do.
 class directory_lock {
 public:
     enum class outcome { taken, held_by_another, failed };
@@ -90,7 +90,7 @@ public:
     directory_lock& operator=(directory_lock const&) = delete;
     ~directory_lock() { release(); }
 
-    /// Whether another holds it; touches nothing.
+    /// True if another process holds the lock. Changes nothing.
     bool is_taken() {
 #if __has_include(<unistd.h>)
         int const opened = ::open(path_.c_str(), O_RDWR | O_CLOEXEC);
@@ -103,7 +103,8 @@ public:
         return false;
 #endif
     }
-    /// \return failed: see errno
+    /// Tries to take the lock.
+    /// \return outcome::failed with the reason in errno
     outcome take() {
 #if __has_include(<unistd.h>)
         for (;;) {
@@ -114,13 +115,13 @@ public:
                 close(opened);
                 return outcome::held_by_another;
             }
-            // The owner before may have removed the file since it was opened.
+            // The previous owner may have removed the file since it was opened here.
             if (!detail::is_at(opened, path_)) {
                 close(opened);
                 continue;
             }
             std::string const text = lock_owner::self().text();
-            // Without space for the name the lock holds as well.
+            // The lock holds even if there is no disk space for the owner's name.
             if (ftruncate(opened, 0) != 0 || pwrite(opened, text.data(), text.size(), 0) < 0) owner_ = {};
             file_ = opened;
             return outcome::taken;
@@ -136,7 +137,7 @@ public:
         close(std::exchange(file_, -1));
 #endif
     }
-    /// Who has it, for a message.
+    /// The owner, for a message.
     std::string owner() const { return owner_.name(); }
 
 private:
@@ -157,8 +158,8 @@ private:
     int file_ = -1;
 };
 
-/// Removes files under temporary names (see whole_file) whose writer has ended.
-/// \param is_ours says by the name that the whole file would have had which ones
+/// Removes temporary files (see whole_file) whose writer has ended.
+/// \param is_ours callable: final name of the file -> true if the file may be removed
 template <class Rule>
 void remove_unfinished_files(std::filesystem::path const& directory, Rule const& is_ours) {
     namespace fs = std::filesystem;

@@ -8,37 +8,37 @@
 
 namespace lacuna {
 
-/// Where the energy of a run is, and where it went. All in J, all at the positions of the last forces.
+/// Energy balance of a simulation. All terms in J, at the positions of the last forces.
 ///
-/// Consistent with the integrator: kinetic energy from the product of the velocities half a step before and
-/// after the positions, work as the mean of two forces times the displacement between them. In a linear system
-/// without friction the residual is then rounding; friction, opening contacts and large rotations add errors of
-/// the order of the time step.
+/// The terms are consistent with the integrator. Kinetic energy uses the product of the velocities half a step before
+/// and after the positions. Work is the mean of two forces times the displacement between them. So in a linear system
+/// without friction the residual is rounding. Friction, opening contacts and large rotations add errors of the order of
+/// the time step.
 struct energy_ledger {
-    double kinetic = 0;       ///< translation and rotation
-    double strain = 0;        ///< elastic, in bonds, contacts and walls
-    double friction = 0;      ///< dissipated by sliding and by bonds crushed at their compressive limit
-    double damping = 0;       ///< taken out by damping policies
-    double fracture = 0;      ///< taken out of the springs by failing bonds
-    double fluid_storage = 0; ///< compressed fluid
+    double kinetic = 0;       ///< kinetic energy of translation and rotation
+    double strain = 0;        ///< elastic energy in bonds, contacts and walls
+    double friction = 0;      ///< dissipated by sliding, and by bonds that yield at their compressive limit
+    double damping = 0;       ///< dissipated by damping policies
+    double fracture = 0;      ///< lost from springs when bonds fail
+    double fluid_storage = 0; ///< energy of the compressed fluid
     double fluid_viscous = 0; ///< dissipated in throats
-    double fluid_outflow = 0; ///< carried out through drained boundaries and cut off by limits of the fluid
-    double fluid_remesh = 0;  ///< taken out of the compressed fluid where pores were triangulated anew
+    double fluid_outflow = 0; ///< lost through drained boundaries and by limits of the fluid
+    double fluid_remesh = 0;  ///< lost from the compressed fluid when pores are triangulated again
     double external = 0;      ///< work of loads, gravity, and prescribed motion
     double initial = 0;       ///< energy in the system at the start
 
-    double rotation = 0;       ///< of kinetic: of spins
-    double bond_strain = 0;    ///< of strain: in bonds
-    double shear_fracture = 0; ///< of fracture: by bonds that failed in shear
-    double prescribed = 0;     ///< of external: by prescribed motion, velocities given included
-    double fluid_work = 0;     ///< exchanged within: done by the fluid's pressure on the particles
+    double rotation = 0;       ///< part of kinetic: energy of spins
+    double bond_strain = 0;    ///< part of strain: energy in bonds
+    double shear_fracture = 0; ///< part of fracture: lost by bonds that failed in shear
+    double prescribed = 0;     ///< part of external: work of prescribed motion, including velocities set by the caller
+    double fluid_work = 0;     ///< internal exchange: work of the fluid's pressure on the particles
 
-    /// What does not add up: energy that is there or was spent, less energy that came in.
+    /// The error of the balance: energy present or spent, minus energy supplied.
     double residual() const noexcept {
         return kinetic + strain + friction + damping + fracture + fluid_storage + fluid_viscous + fluid_outflow +
                fluid_remesh - external - initial;
     }
-    /// The largest term, to which a residual is to be compared.
+    /// The largest magnitude of a term, the scale of the residual.
     double largest() const noexcept {
         double m = 0;
         for (double const term : {kinetic, strain, friction, damping, fracture, fluid_storage, fluid_viscous,

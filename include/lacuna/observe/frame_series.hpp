@@ -10,25 +10,24 @@
 
 namespace lacuna {
 
-/// Observer that writes a frame at the start of a run, after every n-th step, and at the end. A run that is resumed, from a
-/// checkpoint or in another process, goes on with the series that is there: it may, but need not be given to
-/// save_checkpoint() and load_checkpoint().
-/// \tparam Writer has write(simulation const&, prefix, number): number is the step, in twelve digits; and, if its files are
-///         more than one for each frame, resume(simulation const&, prefix), which brings those of an earlier part of the run
-///         to what they were at the present time, and says how: see series_part
+/// Observer that writes a frame at the start of a run, after every n-th step, and at the end. A resumed simulation
+/// continues the existing series. You may pass the observer to save_checkpoint() and load_checkpoint(), but need not.
+/// \tparam Writer has write(simulation const&, prefix, number), where number is the step in twelve digits. If it also
+/// has files that span frames, it has resume(simulation const&, prefix), which resets those of an earlier part of the
+/// simulation to the current time and returns a series_part.
 template <class Writer>
 class frame_series {
 public:
     static constexpr stage stages = stage::start | stage::step | stage::end;
 
-    /// \param prefix what the files' names start with, directories included; these must be there
-    /// \param every steps between frames
+    /// \param prefix beginning of the file names, including directories, which must exist
+    /// \param every number of steps between frames
     /// \throws std::invalid_argument for less than one step
     frame_series(std::string prefix, long long every, Writer writer = {})
         : prefix_(std::move(prefix)), every_(every), writer_(std::move(writer)) {
         if (every < 1) refuse("frame_series.every", double(every), "at least 1");
     }
-    /// \throws std::runtime_error when a file cannot be written
+    /// \throws std::runtime_error if a file cannot be written
     template <class Simulation>
     void on_start(Simulation const& sim) {
         bool const goes_back = sim.steps() < latest_;
@@ -68,15 +67,15 @@ private:
 
     std::string prefix_;
     long long every_;
-    long long last_ = -1;   // frame of the present run
-    long long latest_ = -1; // frame that this object wrote, not part of a state
+    long long last_ = -1;   // step of the last frame; part of the state
+    long long latest_ = -1; // step of the last frame that this object wrote; not part of the state
     Writer writer_;
 };
 
-/// What is left of an earlier part of a series.
+/// The remains of an earlier part of a series.
 struct series_part {
-    bool is_there = false;    ///< frames up to the present time
-    bool has_present = false; ///< that of the present time, too
+    bool is_there = false;    ///< it has frames up to the current time
+    bool has_present = false; ///< it has the frame of the current time, too
 };
 
 } // namespace lacuna

@@ -17,26 +17,29 @@
 
 namespace lacuna {
 
-/// How much of a growing file belongs to a state, and what these bytes are.
+/// The beginning of a growing file that belongs to a state.
 struct file_mark {
-    std::uint64_t bytes = 0; ///< 0: the file is not there yet
+    std::uint64_t bytes = 0; ///< length of this beginning; 0: the file does not exist yet
     std::uint64_t sum = 0;   ///< checksum of these bytes
     bool operator==(file_mark const&) const = default;
 };
 
-/// A text file that grows by whole lines while a run goes on, and is cut back to a mark when the run is resumed. At every
-/// moment it holds a head, whole lines and a foot; but a program that is killed within a write leaves what the system has
-/// written of it, up to the end of some page: then the last line has no end, and resume() takes it away. Lines wait in memory
-/// until some thousands of bytes or a second have come together; flush() writes them at once. The file is not kept open, so
-/// that the object can be copied with what observes a run; one of the copies goes on.
+/// A text file that grows by whole lines during a run, and is cut back to a mark when the run is resumed. At every
+/// moment it consists of a head, whole lines and a foot. An exception is a program that is killed during a write: the
+/// last line may then be incomplete, and resume() removes it.
+///
+/// Lines wait in memory until some thousand bytes have accumulated or a second has passed; flush() writes them at once.
+/// The file is not held open, so that the object can be copied with an observer; only one of the copies may continue.
 class growing_file {
 public:
     growing_file() = default;
-    /// Nothing is done yet. \param head lines at the beginning \param foot lines at the end, such as closing tags
+    /// Stores the arguments; does not touch the file.
+    /// \param head lines at the beginning
+    /// \param foot lines at the end, such as closing tags
     growing_file(std::string path, std::string head, std::string foot = {})
         : path_(std::move(path)), head_(std::move(head)), foot_(std::move(foot)) {}
 
-    /// A new file, in place of what is there. \throws std::runtime_error when it cannot be written
+    /// Creates the file, or replaces it. \throws std::runtime_error if it cannot be written
     void begin() {
         whole_file file(path_);
         file.write(head_ + foot_);
@@ -46,15 +49,15 @@ public:
         count(head_);
         on_disk_ = false;
     }
-    /// Goes on with the file that is there, cut back to a mark of it; mark of no file: removes it.
-    /// \throws std::runtime_error when the file does not begin with what the mark says, or cannot be written
+    /// Cuts the existing file back to a mark and continues it. An empty mark removes the file.
+    /// \throws std::runtime_error if the file's beginning is not that of the mark, or if it cannot be written
     void resume(file_mark const& mark) {
         if (mark.bytes == 0) {
             std::remove(path_.c_str());
         } else {
             if (!begins_with(path_, mark))
-                throw std::runtime_error("cannot go on with " + path_ + ": it does not begin with the " +
-                                         std::to_string(mark.bytes) + " bytes that the state says");
+                throw std::runtime_error("cannot continue " + path_ + ": it does not begin with the " +
+                                         std::to_string(mark.bytes) + " bytes that belong to the state");
             if (foot_.empty())
                 cut(mark.bytes);
             else
@@ -64,24 +67,24 @@ public:
         mark_ = mark;
         on_disk_ = false;
     }
-    /// Appends whole lines. \throws std::runtime_error when they cannot be written
+    /// Appends whole lines. \throws std::runtime_error if they cannot be written
     void add(std::string_view lines) {
         if (lines.empty()) return;
         if (pending_.empty()) since_ = std::chrono::steady_clock::now();
         pending_ += lines;
         if (pending_.size() >= most_waiting || std::chrono::steady_clock::now() - since_ > std::chrono::seconds(1)) flush();
     }
-    /// Writes what waits. \throws std::runtime_error; the file holds whole lines then, too
+    /// Writes the lines that wait. \throws std::runtime_error on failure; the file then still consists of whole lines
     void flush() { write(false); }
-    /// As flush(), and the bytes are on the disk when it returns.
+    /// Like flush(), but returns only when the bytes are on the disk.
     void sync() { write(true); }
 
     bool has_begun() const noexcept { return mark_.bytes > 0; }
-    /// All that was added belongs to it after flush().
+    /// The mark of the written part; after flush() it includes all lines.
     file_mark const& mark() const noexcept { return mark_; }
     std::string const& path() const noexcept { return path_; }
 
-    /// Whether a file begins with what a mark says; no file with any but the empty mark.
+    /// True if the beginning of a file is that of the mark. A missing file fits the empty mark only.
     static bool begins_with(std::string const& path, file_mark const& mark) {
         std::FILE* file = std::fopen(path.c_str(), "rb");
         if (file == nullptr) return mark.bytes == 0;
@@ -97,7 +100,8 @@ public:
         std::fclose(file);
         return left == 0 && (mark.bytes == 0 || sum.value() == mark.sum);
     }
-    /// Writes the beginning of a file, and a foot, to a path, whole or not at all. \throws std::runtime_error
+    /// Copies the beginning of a file, followed by a foot, to a path, complete or not at all. \throws
+    /// std::runtime_error if a file cannot be read or written
     static void copy_beginning(std::string const& from, file_mark const& mark, std::string const& to,
                                std::string_view foot = {}) {
         std::FILE* file = std::fopen(from.c_str(), "rb");
@@ -134,8 +138,8 @@ private:
         std::filesystem::resize_file(path_, bytes, error);
         if (error) throw std::runtime_error("cannot write " + path_ + ": " + error.message());
     }
-    /// A disk that is full has taken a part of a line.
-    void take_back() const {
+    /// Removes the part of a line that a full disk has taken.
+    void remove_partial_line() const {
         std::error_code ignored;
         std::filesystem::resize_file(path_, mark_.bytes, ignored);
         if (foot_.empty()) return;
@@ -148,7 +152,7 @@ private:
         if (!has_begun() || (pending_.empty() && (!to_disk || on_disk_))) return;
         std::FILE* file = std::fopen(path_.c_str(), "r+b");
         if (file == nullptr) detail::fail_file("cannot write", path_);
-        // In one piece, over the foot that is there: a kill between two would leave a file without its foot.
+        // One write that overwrites the old foot: a kill between two writes would leave a file without its foot.
         std::string const piece = pending_ + foot_;
         std::setvbuf(file, nullptr, _IONBF, 0);
         bool sound = std::fseek(file, long(mark_.bytes), SEEK_SET) == 0;
@@ -159,7 +163,7 @@ private:
         int reason = errno;
         if (std::fclose(file) != 0 && sound) sound = false, reason = errno;
         if (!sound) {
-            take_back();
+            remove_partial_line();
             errno = reason;
             detail::fail_file("cannot write", path_);
         }
@@ -170,7 +174,7 @@ private:
 
     std::string path_, head_, foot_, pending_;
     file_mark mark_;
-    bool on_disk_ = false; // all that is written
+    bool on_disk_ = false; // all written bytes are on the disk
     std::chrono::steady_clock::time_point since_{};
 };
 

@@ -11,9 +11,9 @@
 
 namespace lacuna {
 
-/// One frame in the text format of LAMMPS's command dump, as OVITO reads it: id from 1, type (material + 1), position m,
-/// radius m, velocity m/s, spin rad/s, mass kg, and the orientation as a quaternion in OVITO's columns. The box is the
-/// particles', shrink-wrapped.
+/// One frame in the text format of LAMMPS's command dump, as OVITO reads it: id counted from 1, type (material + 1),
+/// position m, radius m, velocity m/s, spin rad/s, mass kg, and the orientation as a quaternion in OVITO's columns. The
+/// box is the bounding box of the particles ("shrink-wrapped").
 template <class Simulation>
 std::string lammps_dump_text(Simulation const& sim) {
     double low[3] = {0, 0, 0}, high[3] = {0, 0, 0};
@@ -43,7 +43,7 @@ std::string lammps_dump_text(Simulation const& sim) {
     return text;
 }
 
-/// Writes frames for OVITO: PREFIX-STEP.dump, whole or not at all; OVITO takes `PREFIX-*.dump` as a series.
+/// Writes frames for OVITO, PREFIX-STEP.dump, each complete or not at all. OVITO reads `PREFIX-*.dump` as a series.
 struct lammps_frames {
     template <class Simulation>
     void write(Simulation const& sim, std::string const& prefix, std::string const& number) const {

@@ -9,24 +9,23 @@
 
 namespace lacuna {
 
-/// Moments of a run at which an observer can be called.
+/// Moments of a run at which an observer is called.
 enum class stage : unsigned {
     start = 1,    ///< on_start(simulation const&), before the first step
     step = 2,     ///< on_step(simulation const&), after each step
     breakage = 4, ///< on_break(break_event const&, simulation const&), for each bond that fails, in order
-    end = 8       ///< on_end(simulation const&), after the last step, also of a run that was stopped
+    end = 8       ///< on_end(simulation const&), after the last step, also if the run was stopped
 };
 constexpr stage operator|(stage a, stage b) noexcept { return stage(unsigned(a) | unsigned(b)); }
 constexpr bool has(stage set, stage one) noexcept { return (unsigned(set) & unsigned(one)) != 0; }
 
-/// What on_step may answer; an observer whose on_step returns void never stops a run.
+/// The result of on_step. An observer whose on_step returns void never stops a run.
 enum class run_control { go_on, stop };
 
-/// An observer declares the stages it wants as `static constexpr stage stages`. Each declared stage must be
-/// callable: a misspelt or ill-typed hook is an error of compilation. With
-/// `static constexpr bool needs_energy = true` the energy ledger is kept during its runs; with a member
-/// `bool needs_energy_in(long long step) const` in the steps that it names, counted from 0. A ledger that was not kept
-/// in a step begins anew with the next one.
+/// An observer declares its stages as `static constexpr stage stages`. The hook of each declared stage must be
+/// callable: a misspelt or ill-typed hook is a compile error. With `static constexpr bool needs_energy = true`, the
+/// energy ledger is computed in all steps of its runs. With a member `bool needs_energy_in(long long step) const`, it
+/// is computed in the steps for which this is true, counted from 0. After a step without it, a new ledger starts.
 template <class O>
 concept observer = requires {
     { std::remove_cvref_t<O>::stages } -> std::convertible_to<stage>;
@@ -41,7 +40,7 @@ template <class O>
 inline constexpr bool samples_energy = requires(std::remove_cvref_t<O> const& o, long long step) {
     { o.needs_energy_in(step) } -> std::convertible_to<bool>;
 };
-/// Whether an observer wants the ledger in a step.
+/// True if an observer needs the energy ledger in a step.
 template <class O>
 constexpr bool wants_energy([[maybe_unused]] O const& o, [[maybe_unused]] long long step) {
     if constexpr (samples_energy<O>)
@@ -73,7 +72,7 @@ constexpr void check_observer() {
     if constexpr (has(wanted, stage::end))
         static_assert(requires(type & o, Simulation const& s) { o.on_end(s); },
                       "observer declares stage::end but on_end(simulation const&) cannot be called");
-    // The opposite slip: a hook that is there but was not declared would silently never be called.
+    // The opposite mistake: a hook without its declared stage would silently never be called.
     if constexpr (!has(wanted, stage::start))
         static_assert(!requires(type & o, Simulation const& s) { o.on_start(s); }, "on_start is not among the stages");
     if constexpr (!has(wanted, stage::step))
@@ -85,7 +84,7 @@ constexpr void check_observer() {
         static_assert(!requires(type & o, Simulation const& s) { o.on_end(s); }, "on_end is not among the stages");
 }
 
-// A hook that cannot be called has been refused by check_observer(); a call would only make the message longer.
+// check_observer() has refused hooks that cannot be called; calling them here would only lengthen the error message.
 template <class O, class Simulation>
 void notify_start(O& o, Simulation const& s) {
     if constexpr (has(O::stages, stage::start) && requires { o.on_start(s); }) o.on_start(s);
@@ -94,7 +93,7 @@ template <class O, class Event, class Simulation>
 void notify_break(O& o, Event const& event, Simulation const& s) {
     if constexpr (has(O::stages, stage::breakage) && requires { o.on_break(event, s); }) o.on_break(event, s);
 }
-/// \return whether the run may go on
+/// \return true if the run may continue
 template <class O, class Simulation>
 bool notify_step(O& o, Simulation const& s) {
     if constexpr (has(O::stages, stage::step) && requires { o.on_step(s); }) {

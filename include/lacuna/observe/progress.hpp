@@ -17,7 +17,7 @@
 
 namespace lacuna {
 
-/// Seconds as a person reads them: "8 s", "3:05", "2:07:09".
+/// A duration in seconds as readable text: "8 s", "3:05", "2:07:09".
 inline std::string clock_text(double seconds) {
     if (!std::isfinite(seconds) || seconds < 0 || seconds > 359999) return "?";
     long const whole = std::lround(std::ceil(seconds));
@@ -31,7 +31,7 @@ inline std::string clock_text(double seconds) {
     return buffer;
 }
 
-/// A number with the letter of its thousands: 12340000 -> "12.3 M", 12 -> "12".
+/// A number with three digits and an SI prefix: 12340000 -> "12.3 M", 12 -> "12".
 inline std::string rate_text(double rate) {
     struct magnitude {
         double size;
@@ -42,7 +42,7 @@ inline std::string rate_text(double rate) {
     return formatted("%.3g", rate);
 }
 
-/// Whether a file is a terminal, on which a line can be rewritten.
+/// True if a file is a terminal, on which a line can be rewritten.
 inline bool is_terminal(std::FILE* file) noexcept {
 #if __has_include(<unistd.h>)
     return file != nullptr && isatty(fileno(file)) == 1;
@@ -51,16 +51,16 @@ inline bool is_terminal(std::FILE* file) noexcept {
 #endif
 }
 
-/// What a progress reporter needs to know about the run, and how often it speaks.
+/// Options of a progress reporter: the size of the run and the frequency of reports.
 struct progress_options {
-    std::FILE* sink = nullptr;    ///< where it writes; null: it stays silent
+    std::FILE* sink = nullptr;    ///< receives the reports; null: there are none
     long long steps = 1;          ///< steps of the whole run
     long long particles = 1;      ///< for the rate, which counts particles times steps
-    char const* unit = "particle-steps"; ///< what is counted a second; null: no rate
-    bool terminal = false;        ///< rewrite one line (see is_terminal), or write plain lines now and then
-    double refresh_seconds = 0.1; ///< least time between two rewrites
-    double line_seconds = 5;      ///< least time between two plain lines
-    int bar_width = 20;           ///< characters
+    char const* unit = "particle-steps"; ///< unit of the rate, counted per second; null: no rate
+    bool terminal = false;        ///< true: rewrite one line (see is_terminal()); false: write plain lines
+    double refresh_seconds = 0.1; ///< least time between two rewrites, s
+    double line_seconds = 5;      ///< least time between two plain lines, s
+    int bar_width = 20;           ///< width of the bar, characters
 
     /// \throws std::invalid_argument that names the field
     void validate() const {
@@ -72,29 +72,29 @@ struct progress_options {
     }
 };
 
-/// Tells a person how far a run is: percent, rate and time left, on a terminal as a bar rewritten in place,
-/// elsewhere as plain lines. It writes only to the sink that the program gives it.
-/// \tparam Clock as in std::chrono; a test brings its own
+/// Reports the progress of a run: percent, rate and time left. On a terminal it rewrites a bar in place; elsewhere it
+/// writes plain lines. It writes only to the sink that the program passes.
+/// \tparam Clock a clock of std::chrono; a test has its own
 template <class Clock = std::chrono::steady_clock>
 class progress_reporter {
 public:
-    /// The clock starts here. \throws std::invalid_argument for options out of range
+    /// Starts the clock. \throws std::invalid_argument for options out of range
     explicit progress_reporter(progress_options const& options)
         : options_(options), start_(Clock::now()), last_(start_) {
         options_.validate();
     }
     progress_reporter(progress_reporter const&) = delete;
     progress_reporter& operator=(progress_reporter const&) = delete;
-    /// Leaves the terminal on a fresh line.
+    /// Ends the line on a terminal.
     ~progress_reporter() { end_line(); }
 
-    /// From here on the whole run is that long: for runs whose end shows as they go on. \throws std::invalid_argument for
-    /// less than 1
+    /// Changes the number of steps of the whole run, for runs whose end is not known at the start.
+    /// \throws std::invalid_argument for less than 1
     void expect(long long steps) {
         if (steps < 1) refuse("steps of the whole run", double(steps), ">= 1");
         options_.steps = steps;
     }
-    /// Says that `step` steps are done; `note` stands at the end of the line. Cheap when it is not yet time to speak.
+    /// Reports that `step` steps are done, with `note` at the end of the line. Cheap if the next report is not due yet.
     void update(long long step, std::string_view note = {}) {
         if (options_.sink == nullptr) return;
         auto const now = Clock::now();
@@ -103,7 +103,7 @@ public:
         last_ = now;
         write(step, seconds(now - start_), note);
     }
-    /// Says how it ended, whenever it last spoke. Later calls do nothing.
+    /// Writes the last report, whether it is due or not. Later calls do nothing.
     void finish(long long step, std::string_view note = {}) {
         if (options_.sink == nullptr || finished_) return;
         finished_ = true;
@@ -132,7 +132,7 @@ private:
         if (options_.unit != nullptr) line += "  " + rate_text(rate) + " " + options_.unit + "/s";
         line += finished_ ? "  took " + clock_text(elapsed) : "  left " + clock_text(left);
         if (!note.empty()) line += "  " + std::string(note);
-        // A shorter line must cover what the longer one before it left on the terminal.
+        // Blanks cover the rest of a longer previous line on the terminal.
         std::size_t const length = line.size();
         if (options_.terminal && length < longest_) line.append(longest_ - length, ' ');
         longest_ = std::max(longest_, length);

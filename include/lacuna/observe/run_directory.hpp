@@ -19,23 +19,25 @@
 
 namespace lacuna {
 
-/// What a run means to do with results of an earlier one.
+/// The treatment of results of an earlier run.
 enum class earlier_results {
     refuse,  ///< there must be none
     replace, ///< they are removed when the run begins to write
-    keep     ///< the run goes on with them
+    keep     ///< the run continues them
 };
 
-/// The directory that a run's results go to. One owner at a time: the lock is the system's (directory_lock), so that it ends
-/// with its process, however that ends. Opening makes the directory where needed and proves that it can be written; until
-/// keep(), leaving takes back every directory that was made. A refused run writes nothing.
+/// The directory for the results of a run. It has one owner at a time: the lock is the system's (directory_lock), so
+/// that it ends with its process, however that ends. The constructor creates the directory if necessary and checks that
+/// it is writable. Unless keep() or stay() was called, the destructor removes the directories that were created. A
+/// refused run writes nothing.
 class run_directory {
 public:
     /// \param field for messages: "output.directory", "--out"
-    /// \param results names of the files that such a run leaves, `#` for a number; all others are never touched
-    /// \param lock name of the lock's file: runs whose results have other names may share a directory by locks of their own
-    /// \throws std::invalid_argument when another run owns it, when it holds results and these are not to be replaced or kept, or
-    ///         when it cannot be written
+    /// \param results names of the files that such a run writes, with `#` for a number; no other file is ever touched
+    /// \param lock name of the lock file; runs whose results have different names can share a directory with different
+    ///         locks
+    /// \throws std::invalid_argument if another run owns the directory, if it has results that must not be replaced or
+    ///         kept, or if it cannot be written
     run_directory(std::string const& path, std::string const& field, std::vector<std::string> results, earlier_results earlier,
                   std::string const& lock = "lacuna.lock")
         : path_(path.empty() ? "." : path), field_(field), results_(std::move(results)), earlier_(earlier), lock_(file(lock)) {
@@ -43,7 +45,7 @@ public:
             open();
         } catch (...) {
             lock_.release();
-            take_back();
+            remove_created();
             throw;
         }
     }
@@ -51,36 +53,36 @@ public:
     run_directory& operator=(run_directory const&) = delete;
     ~run_directory() {
         lock_.release();
-        if (!kept_) take_back();
+        if (!stays_) remove_created();
     }
 
-    /// From here on the directory stays. Results that are to be replaced are removed, all before this returns.
+    /// Makes the directory permanent. The first call removes all results of an earlier run that are to be replaced.
     void keep() {
         stay();
         if (!std::exchange(begun_, true) && earlier_ == earlier_results::replace) remove_results();
     }
-    /// From here on the directory stays, and so do results, until keep().
-    void stay() noexcept { kept_ = true; }
-    /// Removes all results: of a run that is refused after all. Directories that were made for it go with it.
+    /// Makes the directory permanent, and leaves earlier results until keep() is called.
+    void stay() noexcept { stays_ = true; }
+    /// Removes all results, for a run that is refused after keep(). The destructor removes the created directories.
     void discard() {
         remove_results();
-        kept_ = false;
+        stays_ = false;
     }
-    /// Path of a file in it.
+    /// Path of a file in the directory.
     std::string file(std::string_view name) const { return (path_ / name).string(); }
-    /// Removes a file, if it is there. \throws std::runtime_error when it cannot be removed
+    /// Removes a file if it exists. \throws std::runtime_error if it cannot be removed
     void remove(std::string_view name) const {
         std::error_code error;
         std::filesystem::remove(path_ / name, error);
         if (error) throw std::runtime_error("cannot remove " + file(name) + ": " + error.message());
     }
-    /// Whether a file of this name is one that such a run leaves.
+    /// True if a file of this name is a result of such a run.
     bool is_result(std::string_view name) const {
         for (auto const& pattern : results_)
             if (fits(name, pattern)) return true;
         return false;
     }
-    /// Names of the results that are there, in order.
+    /// Names of the results in the directory, sorted.
     std::vector<std::string> results() const {
         std::vector<std::string> names;
         std::error_code error;
@@ -95,14 +97,14 @@ public:
 private:
     [[noreturn]] void refuse_it(std::string const& rule) const { refuse(field_, "\"" + path_.string() + "\"", rule); }
     static bool fits(std::string_view name, std::string_view pattern) {
-        auto const place = pattern.find('#');
-        if (place == std::string_view::npos) return name == pattern;
-        auto const ending = pattern.substr(place + 1);
-        if (name.size() <= place + ending.size() || name.substr(0, place) != pattern.substr(0, place)) return false;
-        auto const number = name.substr(place, name.size() - place - ending.size());
-        return name.substr(place + number.size()) == ending && number.find_first_not_of("0123456789") == number.npos;
+        auto const mark = pattern.find('#');
+        if (mark == std::string_view::npos) return name == pattern;
+        auto const ending = pattern.substr(mark + 1);
+        if (name.size() <= mark + ending.size() || name.substr(0, mark) != pattern.substr(0, mark)) return false;
+        auto const number = name.substr(mark, name.size() - mark - ending.size());
+        return name.substr(mark + number.size()) == ending && number.find_first_not_of("0123456789") == number.npos;
     }
-    void refuse_owned() const { refuse_it("a directory of its own: it is in use by " + lock_.owner()); }
+    void refuse_owned() const { refuse_it("a directory that no other run uses; it is in use by " + lock_.owner()); }
     void refuse_results() const {
         if (earlier_ != earlier_results::refuse) return;
         auto const names = results();
@@ -121,8 +123,8 @@ private:
             if (p == p.parent_path()) break;
         }
         for (auto p = missing.rbegin(); p != missing.rend(); ++p) {
-            // Another run may have made it just now; whose directory it is the lock decides.
-            if (fs::create_directory(*p, error)) made_.push_back(*p);
+            // Another run may have created it just now; the lock decides who owns it.
+            if (fs::create_directory(*p, error)) created_.push_back(*p);
             if (error) refuse_it("a directory that can be made: " + error.message());
         }
         if (!fs::is_directory(path_, error)) refuse_it("a directory, or one that can be made");
@@ -133,19 +135,19 @@ private:
         refuse_results();
         remove_unfinished();
     }
-    /// What a killed run has left under temporary names.
+    /// Removes files that a killed run has left under temporary names.
     void remove_unfinished() const {
         remove_unfinished_files(path_, [this](std::string_view whole) { return is_result(whole); });
     }
     void remove_results() const {
         for (auto const& name : results()) remove(name);
     }
-    void take_back() {
-        for (auto p = made_.rbegin(); p != made_.rend(); ++p) {
+    void remove_created() {
+        for (auto p = created_.rbegin(); p != created_.rend(); ++p) {
             std::error_code ignored;
             std::filesystem::remove(*p, ignored);
         }
-        made_.clear();
+        created_.clear();
     }
 
     std::filesystem::path path_;
@@ -153,8 +155,8 @@ private:
     std::vector<std::string> results_;
     earlier_results earlier_;
     directory_lock lock_;
-    std::vector<std::filesystem::path> made_;
-    bool kept_ = false, begun_ = false;
+    std::vector<std::filesystem::path> created_;
+    bool stays_ = false, begun_ = false;
 };
 
 } // namespace lacuna

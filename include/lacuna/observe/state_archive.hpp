@@ -18,12 +18,12 @@
 #include <lacuna/core/state.hpp>
 
 /// \file
-/// Archives of cereal for states: plain bytes in memory. The reader trusts nothing: whatever it is given, it reads
-/// within its bytes, makes no array longer than they can fill, and refuses by std::runtime_error.
+/// Archives of cereal for states: plain bytes in memory. The reader trusts no input: it never reads beyond its bytes,
+/// makes no array longer than they can fill, and refuses bad bytes with std::runtime_error.
 
 namespace lacuna {
 
-/// Bytes of a state; the byte order of the machine.
+/// Writes a state as bytes, in the byte order of the machine.
 class state_writer : public cereal::OutputArchive<state_writer, cereal::AllowEmptyClassElision> {
 public:
     state_writer() : cereal::OutputArchive<state_writer, cereal::AllowEmptyClassElision>(this) {}
@@ -36,7 +36,7 @@ private:
     std::string bytes_;
 };
 
-/// The way back. \throws std::runtime_error, as above
+/// Reads the bytes of a state. \throws std::runtime_error for bytes that are not such a state
 class state_reader : public cereal::InputArchive<state_reader, cereal::AllowEmptyClassElision> {
 public:
     explicit state_reader(std::string_view bytes)
@@ -46,7 +46,7 @@ public:
         if (size > 0) std::memcpy(data, bytes_.data(), size);
         bytes_.remove_prefix(size);
     }
-    /// A length that the bytes left cannot hold is refused before memory is asked for.
+    /// Reads the length of a list. Refuses one that exceeds the remaining bytes, before any memory is allocated.
     void load_length(std::uint64_t& length) {
         loadBinary(&length, sizeof length);
         require_state(length <= bytes_.size(), "a list is longer than the file");
@@ -70,13 +70,13 @@ inline constexpr bool is_fixed_length = false;
 template <class Array>
 inline constexpr bool is_fixed_length<fixed_length<Array>> = true;
 
-/// Aggregates that say nothing themselves about how they are kept: member by member.
+/// An aggregate without `serialize`, which is archived member by member.
 template <class T, class Archive>
 concept plain_aggregate = std::is_aggregate_v<T> && !std::is_array_v<T> && !is_std_array<T> && !is_fixed_length<T> &&
                           !requires(T& value, Archive& ar) { value.serialize(ar); };
 } // namespace detail
 
-/// \name How cereal keeps each kind of value
+/// \name How cereal archives each kind of value
 /// \{
 template <class T>
     requires std::is_arithmetic_v<T>
@@ -89,7 +89,7 @@ void CEREAL_LOAD_FUNCTION_NAME(state_reader& ar, T& value) {
     if constexpr (std::is_same_v<T, bool>) {
         std::uint8_t byte = 0;
         ar.loadBinary(&byte, 1);
-        require_state(byte <= 1, "a truth value that is none");
+        require_state(byte <= 1, "a truth value that is neither 0 nor 1");
         value = byte == 1;
     } else {
         ar.loadBinary(&value, sizeof value);
@@ -126,7 +126,7 @@ template <class Array>
 void CEREAL_LOAD_FUNCTION_NAME(state_reader& ar, fixed_length<Array>& fixed) {
     std::size_t const expected = fixed.array.size();
     ar(fixed.array);
-    require_state(fixed.array.size() == expected, "a list is not as long as what it belongs to");
+    require_state(fixed.array.size() == expected, "a list has another length than expected");
 }
 template <state_archive Archive, detail::plain_aggregate<Archive> T>
 void CEREAL_SERIALIZE_FUNCTION_NAME(Archive& ar, T& value) {

@@ -9,7 +9,7 @@
 #include <lacuna/observe/observer.hpp>
 
 /// \file
-/// Signals that ask a program to stop, as a wish that a run looks at after each step: so that it ends with whole files.
+/// Signals that ask a program to stop. A run checks for them after each step, so that it ends with complete files.
 
 namespace lacuna {
 
@@ -18,7 +18,7 @@ inline std::atomic<int> stop_signal_caught{0};
 inline std::atomic<long long> stop_signal_time{0};
 static_assert(std::atomic<int>::is_always_lock_free && std::atomic<long long>::is_always_lock_free);
 
-/// ms
+/// Time for differences, ms.
 inline long long signal_clock() noexcept {
 #if defined(CLOCK_MONOTONIC)
     std::timespec now{};
@@ -30,10 +30,10 @@ inline long long signal_clock() noexcept {
 }
 } // namespace detail
 
-/// The signal that asked to stop since watch_stop_signals() or request_stop(), 0 if none did.
+/// The first signal that asked to stop, 0 if there was none. See watch_stop_signals() and request_stop().
 inline int stop_signal() noexcept { return detail::stop_signal_caught.load(std::memory_order_relaxed); }
 
-/// Asks as the signal would; safe in a signal handler. 0 takes the wish back.
+/// Acts like the arrival of a signal; safe in a signal handler. 0 withdraws the request.
 inline void request_stop(int number) noexcept {
     detail::stop_signal_time = detail::signal_clock();
     detail::stop_signal_caught = number;
@@ -41,8 +41,8 @@ inline void request_stop(int number) noexcept {
 
 } // namespace lacuna
 
-/// The first signal is a wish; a second, more than a second later, ends the program at once. Those in between belong to the
-/// first: `timeout` and batch systems send a signal to the program and to its group.
+/// The first signal is a request; another one more than a second later ends the program at once. Signals in between
+/// count as the first: `timeout` and batch systems send a signal to the program and to its group.
 extern "C" inline void lacuna_on_stop_signal(int number) {
     if (lacuna::stop_signal() == 0)
         lacuna::request_stop(number);
@@ -54,8 +54,9 @@ extern "C" inline void lacuna_on_stop_signal(int number) {
 
 namespace lacuna {
 
-/// From here on SIGINT, SIGTERM and SIGHUP (unless that is ignored, as under nohup) make stop_signal() say so, and SIGPIPE is
-/// ignored: a run goes on when its output is no longer read. Programs call this; the library does not.
+/// Installs handlers: from here on stop_signal() returns the number of a SIGINT, SIGTERM or SIGHUP. SIGHUP stays
+/// ignored if it is, as under nohup. SIGPIPE is ignored, so that a run continues when its output is no longer read.
+/// Programs call this function; the library does not.
 inline void watch_stop_signals() noexcept {
     std::signal(SIGINT, lacuna_on_stop_signal);
     std::signal(SIGTERM, lacuna_on_stop_signal);
@@ -67,7 +68,7 @@ inline void watch_stop_signals() noexcept {
 #endif
 }
 
-/// "SIGTERM" and so on.
+/// The name of a signal, such as "SIGTERM".
 inline std::string signal_name(int number) {
     switch (number) {
     case SIGINT: return "SIGINT";
@@ -79,7 +80,7 @@ inline std::string signal_name(int number) {
     }
 }
 
-/// Observer that ends a run after the step in which a signal came.
+/// Observer that ends a run after the step in which a signal has arrived.
 struct stop_on_signal {
     static constexpr stage stages = stage::step;
     template <class Simulation>

@@ -12,25 +12,26 @@
 #include <lacuna/core/whole_file.hpp>
 
 /// \file
-/// Files for ParaView and its kin: VTK's XML format for points, lines and polygons (.vtp) and for tetrahedra (.vtu), with
-/// appended data, raw or compressed (vtk_zlib.hpp), and series of them in time (vtk_collection.hpp). Written without VTK.
+/// Files for ParaView and similar programs: VTK's XML format for points, lines and polygons (.vtp) and for tetrahedra
+/// (.vtu). The data is appended, raw or compressed (vtk_zlib.hpp). vtk_collection.hpp has series in time. VTK itself is
+/// not needed.
 
 namespace lacuna {
 
-/// Numbers at points or cells: `components` to each, one after the other.
+/// Numbers at points or cells: `components` consecutive numbers for each.
 struct vtk_array {
     std::string name;
     int components = 1;
     std::vector<double> values;
 };
 
-/// What a file shows: points, and cells of one kind over them.
+/// The content of a file: points, and cells of one kind with these points as corners.
 struct vtk_surface {
     enum class cells { points, lines, polygons, tetrahedra };
     cells kind = cells::points;
     std::vector<double> coordinates;         ///< x, y, z of each point, m
-    std::vector<std::int64_t> connectivity;  ///< points of each cell, one cell after the other; of cells::points each one
-    std::vector<std::int64_t> offsets;       ///< where each cell ends in `connectivity`
+    std::vector<std::int64_t> connectivity;  ///< points of each cell, cell by cell; one point each for cells::points
+    std::vector<std::int64_t> offsets;       ///< end of each cell in `connectivity`
     std::vector<vtk_array> point_data, cell_data;
 
     /// Appends a cell.
@@ -38,10 +39,11 @@ struct vtk_surface {
         connectivity.insert(connectivity.end(), corners);
         offsets.push_back(std::int64_t(connectivity.size()));
     }
-    /// Ending of the file's name.
+    /// Extension of the file's name.
     char const* ending() const noexcept { return kind == cells::tetrahedra ? ".vtu" : ".vtp"; }
-    /// \throws std::invalid_argument for arrays that are not as long as there are points or cells, names that XML would
-    ///         misread, corners that are no points, and tetrahedra without four corners
+    /// Checks that the parts agree.
+    /// \throws std::invalid_argument for arrays without one entry per point or cell, names with characters that XML
+    ///         reserves, corners that are not points, and tetrahedra without four corners
     void validate() const {
         std::size_t const points = coordinates.size() / 3;
         if (coordinates.size() % 3 != 0) refuse("vtk_surface.coordinates.size()", double(coordinates.size()), "a multiple of 3");
@@ -63,10 +65,10 @@ struct vtk_surface {
     }
 };
 
-/// How the arrays of a file are stored: as they are. vtk_zlib compresses them.
+/// Stores the arrays of a file uncompressed; vtk_zlib compresses them.
 struct vtk_raw {
     static constexpr char const* attribute = "";
-    /// Appends an array, after its length.
+    /// Appends the length of an array in bytes, then the array.
     static void append(std::string& data, void const* array, std::size_t bytes) {
         auto const length = std::uint64_t(bytes);
         data.append(reinterpret_cast<char const*>(&length), sizeof length);
@@ -74,7 +76,7 @@ struct vtk_raw {
     }
 };
 
-/// The bytes of a file.
+/// Returns the bytes of a file.
 /// \tparam Storage vtk_raw or vtk_zlib
 /// \throws std::invalid_argument as vtk_surface::validate()
 template <class Storage = vtk_raw>
@@ -120,7 +122,7 @@ std::string vtk_text(vtk_surface const& s, Storage const& = {}) {
            "\n</AppendedData>\n</VTKFile>\n";
 }
 
-/// Writes a file, whole or not at all. \throws std::runtime_error when it cannot be written
+/// Writes a file, complete or not at all. \throws std::runtime_error if it cannot be written
 template <class Storage = vtk_raw>
 void save_vtk(std::string const& path, vtk_surface const& s, Storage const& storage = {}) {
     whole_file file(path);

@@ -13,7 +13,8 @@
 #include <lacuna/observe/growing_file.hpp>
 
 /// \file
-/// ParaView's collections (.pvd): which file shows what time of a run. They grow frame by frame and are whole at every moment.
+/// ParaView's collections (.pvd), which list the file of each time. They grow frame by frame and are complete at every
+/// moment.
 
 namespace lacuna {
 
@@ -24,18 +25,20 @@ inline constexpr std::string_view collection_foot = "</Collection>\n</VTKFile>\n
 inline constexpr std::string_view collection_entry = "<DataSet timestep=\"";
 } // namespace detail
 
-/// A collection, to be begun or resumed.
+/// A collection; call begin() or resume() before adding frames.
 inline growing_file vtk_collection(std::string path) {
     return {std::move(path), std::string(detail::collection_head), std::string(detail::collection_foot)};
 }
 
-/// A frame's line. \param time s \param file relative to the collection
+/// The line of one frame.
+/// \param time s
+/// \param file name relative to the collection
 inline std::string vtk_collection_entry(double time, std::string const& file) {
     return std::string(detail::collection_entry) + to_text(time) + "\" file=\"" + file + "\"/>\n";
 }
 
-/// How much of a collection is of times up to this one, and the last of these. The mark is empty where there is no file, none
-/// of ours, or one with later frames only.
+/// The part of a collection with times up to `time`, and the last of these times, s. The mark is empty if there is no
+/// file, if Lacuna did not write it, or if it has later frames only.
 /// \param time s
 inline std::pair<file_mark, double> vtk_collection_until(std::string const& path, double time) {
     std::FILE* file = std::fopen(path.c_str(), "rb");
@@ -64,9 +67,9 @@ inline std::pair<file_mark, double> vtk_collection_until(std::string const& path
     return {file_mark{end, sum.value()}, last};
 }
 
-/// Writes a collection at once, whole or not at all.
+/// Writes a collection in one go, complete or not at all.
 /// \param frames time in s, and name of a file relative to the collection
-/// \throws std::runtime_error when it cannot be written
+/// \throws std::runtime_error if it cannot be written
 inline void save_vtk_series(std::string const& path, std::vector<std::pair<double, std::string>> const& frames) {
     std::string text(detail::collection_head);
     for (auto const& [time, name] : frames) text += vtk_collection_entry(time, name);

@@ -8,13 +8,13 @@
 #include <lacuna/observe/vtk.hpp>
 
 /// \file
-/// What a simulation looks like in VTK files. Points are particles, by the numbers they have in the packing.
+/// VTK scenes of a simulation: particles, bonds, pores. Points are particles, numbered as in the packing.
 
 namespace lacuna {
 
 namespace detail {
 
-/// Three components from a vector of the plane or of space, a spin of the plane along z.
+/// Appends the three components of a vector of the plane or of space; a spin in the plane is along z.
 template <class Vector>
 void put_three(std::vector<double>& to, Vector const& v) {
     if constexpr (Vector::size() == 1)
@@ -23,7 +23,7 @@ void put_three(std::vector<double>& to, Vector const& v) {
         for (int axis = 0; axis < 3; ++axis) to.push_back(axis < v.size() ? double(v[axis]) : 0.0);
 }
 
-/// Unit quaternion {x, y, z, w} from eq. 8's unit vector in the plane, or from a quaternion {w, x, y, z}.
+/// Appends a unit quaternion {x, y, z, w}, from eq. 8's unit vector in the plane or from a quaternion {w, x, y, z}.
 template <class Orientation>
 void put_quaternion(std::vector<double>& to, Orientation const& q) {
     if constexpr (Orientation::size() == 2) {
@@ -35,7 +35,7 @@ void put_quaternion(std::vector<double>& to, Orientation const& q) {
 }
 
 template <class Simulation>
-vtk_surface vtk_places(Simulation const& sim, vtk_surface::cells kind) {
+vtk_surface vtk_points(Simulation const& sim, vtk_surface::cells kind) {
     vtk_surface s;
     s.kind = kind;
     for (std::size_t k = 0; k < sim.size(); ++k) put_three(s.coordinates, sim.position(k));
@@ -47,7 +47,7 @@ vtk_surface vtk_places(Simulation const& sim, vtk_surface::cells kind) {
 /// Particles as points: radius m, material, mass kg, velocity m/s, spin rad/s, orientation (unit quaternion x, y, z, w).
 template <class Simulation>
 vtk_surface vtk_particles(Simulation const& sim) {
-    auto s = detail::vtk_places(sim, vtk_surface::cells::points);
+    auto s = detail::vtk_points(sim, vtk_surface::cells::points);
     s.point_data = {{"radius", 1, {}}, {"material", 1, {}}, {"mass", 1, {}},
                     {"velocity", 3, {}}, {"spin", 3, {}}, {"orientation", 4, {}}};
     for (std::size_t k = 0; k < sim.size(); ++k) {
@@ -62,11 +62,11 @@ vtk_surface vtk_particles(Simulation const& sim) {
     return s;
 }
 
-/// Bonds as lines: mode 0 intact, 1 broken in tension, 2 broken in shear.
-/// \param broken_only leave out those that are intact
+/// Bonds as lines. Their mode is 0 if intact, 1 if broken in tension, 2 if broken in shear.
+/// \param broken_only leaves out intact bonds
 template <class Simulation>
 vtk_surface vtk_bonds(Simulation const& sim, bool broken_only = false) {
-    auto s = detail::vtk_places(sim, vtk_surface::cells::lines);
+    auto s = detail::vtk_points(sim, vtk_surface::cells::lines);
     s.cell_data = {{"mode", 1, {}}};
     for (auto const& bond : sim.pairs().bond_records()) {
         if (broken_only && int(bond.state) == 0) continue;
@@ -77,11 +77,11 @@ vtk_surface vtk_bonds(Simulation const& sim, bool broken_only = false) {
 }
 
 /// Pores as triangles, in space as tetrahedra: pressure Pa, volume m^3.
-/// \param sim with a flow whose pores are filled
+/// \param sim a simulation with a flow whose pores are filled
 template <class Simulation>
 vtk_surface vtk_pores(Simulation const& sim) {
     constexpr bool solid = Simulation::dim == 3;
-    auto s = detail::vtk_places(sim, solid ? vtk_surface::cells::tetrahedra : vtk_surface::cells::polygons);
+    auto s = detail::vtk_points(sim, solid ? vtk_surface::cells::tetrahedra : vtk_surface::cells::polygons);
     auto const& net = sim.flow().network();
     s.cell_data = {{"pressure", 1, {}}, {"volume", 1, {}}};
     for (std::size_t p = 0; p < net.pores() && !net.bare(); ++p) {

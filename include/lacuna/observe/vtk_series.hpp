@@ -9,9 +9,10 @@
 
 namespace lacuna {
 
-/// Writes frames for ParaView: PREFIX-particles-STEP.vtp, -bonds- where there are bonds, -pores- where there is fluid
-/// (.vtu in space), and a series in time of each, PREFIX-particles.pvd and so on. Each file appears whole or not at all, and
-/// a series grows. At the first step a series begins anew; a run that is resumed keeps what its series says of the time before.
+/// Writes frames for ParaView: PREFIX-particles-STEP.vtp, -bonds- if there are bonds, -pores- if there is fluid (.vtu
+/// in space). A series in time of each, PREFIX-particles.pvd and so on, grows with each frame. Each file appears
+/// complete or not at all. A simulation at step 0 starts new series. A resumed one continues the series and keeps the
+/// entries up to its current time.
 /// \tparam Storage vtk_raw or vtk_zlib
 template <class Storage = vtk_raw>
 class vtk_frames {
@@ -35,7 +36,7 @@ public:
         if constexpr (requires { sim.flow().network(); })
             if (sim.filled()) save("pores", vtk_pores(sim), pores_);
     }
-    /// Cuts the series that are there back to the present time.
+    /// Cuts existing series back to the current time.
     template <class Simulation>
     series_part resume(Simulation const& sim, std::string const& prefix) {
         auto const cut = [&](char const* what, growing_file& series) {

@@ -13,14 +13,14 @@
 
 namespace lacuna {
 
-/// Stores the arrays of VTK files compressed, in blocks, as VTK's own vtkZLibDataCompressor does.
+/// Compresses the arrays of VTK files in blocks, in the format of VTK's vtkZLibDataCompressor.
 struct vtk_zlib {
     static constexpr char const* attribute = " compressor=\"vtkZLibDataCompressor\"";
-    static constexpr std::size_t block = 1 << 18; ///< bytes that are compressed together
+    static constexpr std::size_t block = 1 << 18; ///< bytes in a block
 
-    /// Appends an array, after the number of its blocks, their length, that of a last block that is shorter (or 0), and
-    /// the compressed length of each.
-    /// \throws std::runtime_error when zlib cannot
+    /// Appends a header and the compressed array. The header has the number of blocks, their length, the length of a
+    /// shorter last block (or 0), and the compressed length of each block.
+    /// \throws std::runtime_error if zlib fails
     static void append(std::string& data, void const* array, std::size_t bytes) {
         std::vector<std::uint64_t> header{(bytes + block - 1) / block, block, bytes % block};
         auto const* from = static_cast<unsigned char const*>(array);
