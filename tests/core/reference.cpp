@@ -12,7 +12,7 @@ TEST_CASE("reference values are found by id, key and position", "[reference]") {
     REQUIRE(reference_table("9c.positions").at(1) == std::vector<double>{3.25, 0.0});
 }
 
-TEST_CASE("a reference that is not there is an error", "[reference]") {
+TEST_CASE("a missing reference is an error", "[reference]") {
     REQUIRE_THROWS_WITH(reference("no such case"), contains_text("no such case"));
     REQUIRE_THROWS_WITH(reference("1b.zeta=0.1", "d"), contains_text("no key 'd'"));
     REQUIRE_THROWS_WITH(reference("9c.positions", 7), contains_text("no position 7"));

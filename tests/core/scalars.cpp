@@ -47,7 +47,7 @@ void check_pack() {
         REQUIRE((!(x < y))[k] == !(p < q));
         REQUIRE(((x < y) && (x > P(T(0))))[k] == (p < q && p > 0));
         REQUIRE(((x < y) || (x > P(T(0))))[k] == (p < q || p > 0));
-        // One lane that differs is seen wherever it is.
+        // any() and all() notice a single lane that differs, whichever it is.
         P alone(T(0));
         alone.v[k] = 1;
         REQUIRE(any(alone > P(T(0))));
@@ -76,13 +76,13 @@ void check_records() {
     REQUIRE(reinterpret_cast<std::uintptr_t>(column.data()) % 64 == 0);
     std::int32_t offset[W];
     for (int k = 0; k < W; ++k) offset[k] = 4 * ((7 * k + 3) % 40);
-    auto const turned = transpose_load<T, W>([&](int k) { return record<T>::load(column.data() + offset[k]); });
+    auto const packs = transpose_load<T, W>([&](int k) { return record<T>::load(column.data() + offset[k]); });
     for (int k = 0; k < W; ++k)
-        for (int l = 0; l < 4; ++l) REQUIRE(turned[std::size_t(l)][k] == T(10 * ((7 * k + 3) % 40)) + T(l));
+        for (int l = 0; l < 4; ++l) REQUIRE(packs[std::size_t(l)][k] == T(10 * ((7 * k + 3) % 40)) + T(l));
     std::vector<T> back(4 * W + 8, T(-7));
-    transpose_store<T, W>(back.data() + 4, turned);
+    transpose_store<T, W>(back.data() + 4, packs);
     for (int k = 0; k < W; ++k)
-        for (int l = 0; l < 4; ++l) REQUIRE(back[std::size_t(4 + 4 * k + l)] == turned[std::size_t(l)][k]);
+        for (int l = 0; l < 4; ++l) REQUIRE(back[std::size_t(4 + 4 * k + l)] == packs[std::size_t(l)][k]);
     for (std::size_t k = 0; k < 4; ++k) {
         REQUIRE(back[k] == T(-7));
         REQUIRE(back[back.size() - 1 - k] == T(-7));
@@ -91,18 +91,18 @@ void check_records() {
 
 /// Entries of two records: number l of entry k is 10 k + l.
 template <class T, int W>
-void check_bodies() {
+void check_double_records() {
     body_column<T> column(20);
     for (std::size_t k = 0; k < 20; ++k)
         for (int l = 0; l < 8; ++l) column.at(k, l) = T(10 * k) + T(l);
     REQUIRE(column.size() == 20);
     REQUIRE(column.of(3, 1)[2] == T(36));
     REQUIRE(column[3][2] == T(32));
-    auto const turned = transpose_load2<T, W>([&]<int N>(int k, int first) {
+    auto const packs = transpose_load2<T, W>([&]<int N>(int k, int first) {
         return pack<T, N>::load(column.data() + 8 * ((7 * k + 3) % 20) + first);
     });
     for (int k = 0; k < W; ++k)
-        for (int l = 0; l < 8; ++l) REQUIRE(turned[std::size_t(l)][k] == T(10 * ((7 * k + 3) % 20)) + T(l));
+        for (int l = 0; l < 8; ++l) REQUIRE(packs[std::size_t(l)][k] == T(10 * ((7 * k + 3) % 20)) + T(l));
     column.set(3, record<T>(T(-1)), 1);
     REQUIRE(column.at(3, 3) == T(33));
     REQUIRE(column.at(3, 4) == T(-1));
@@ -127,7 +127,7 @@ TEST_CASE("packs compute lane by lane", "[pack]") {
     check_pack<float, 16>();
 }
 
-TEST_CASE("records are turned into packs and back", "[records]") {
+TEST_CASE("records are transposed into packs and back", "[records]") {
     check_records<double, 2>();
     check_records<double, 4>();
     check_records<double, 8>();
@@ -136,13 +136,13 @@ TEST_CASE("records are turned into packs and back", "[records]") {
     check_records<float, 16>();
 }
 
-TEST_CASE("entries of two records are turned into packs", "[records]") {
-    check_bodies<double, 2>();
-    check_bodies<double, 4>();
-    check_bodies<double, 8>();
-    check_bodies<float, 4>();
-    check_bodies<float, 8>();
-    check_bodies<float, 16>();
+TEST_CASE("entries of two records are transposed into packs", "[records]") {
+    check_double_records<double, 2>();
+    check_double_records<double, 4>();
+    check_double_records<double, 8>();
+    check_double_records<float, 4>();
+    check_double_records<float, 8>();
+    check_double_records<float, 16>();
 }
 
 TEST_CASE("fields of aggregates, packed and converted", "[fields]") {
@@ -235,7 +235,7 @@ TEST_CASE("messages of refused values", "[error]") {
     double const nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
     REQUIRE_THROWS_WITH(require_positive("a.b", 0.0), "a.b = 0: must be > 0 and finite");
     REQUIRE_THROWS_WITH(require_positive("a.b", inf), "a.b = inf: must be > 0 and finite");
-    REQUIRE_THROWS_WITH(require_positive("a.b", 5e-324), "a.b = 4.94066e-324: must be at least 1e-300"); // 1 over it is infinite
+    REQUIRE_THROWS_WITH(require_positive("a.b", 5e-324), "a.b = 4.94066e-324: must be at least 1e-300"); // its inverse is infinite
     REQUIRE_THROWS_WITH(require_not_negative("a", -0.1), "a = -0.1: must be >= 0 and finite");
     REQUIRE_THROWS_WITH(require_limit("a", nan), "a = nan: must be >= 0");
     REQUIRE_THROWS_WITH(require_in("a", 1.5, 0, 1), "a = 1.5: must be from 0 to 1");

@@ -17,7 +17,7 @@ using namespace lacuna;
 
 namespace {
 
-std::string why(std::string const& word) {
+std::string refusal_of(std::string const& word) {
     try {
         read_number("n", word);
     } catch (std::invalid_argument const& e) {
@@ -28,7 +28,7 @@ std::string why(std::string const& word) {
 
 } // namespace
 
-TEST_CASE("numbers are written in the least precision of printf, from six digits on, that strtod reads back", "[text]") {
+TEST_CASE("numbers have the fewest digits, at least six, that strtod reads back", "[text]") {
     std::mt19937_64 random(7);
     std::vector<double> numbers{0.0, -0.0, 1e-5, 1e5, 1e6, 123456, 1234567, 5e-324, 1.7976931348623157e308, 0.1, 1.0 / 3,
                                 5.684341886080802e-14, std::numeric_limits<double>::infinity()};
@@ -50,7 +50,7 @@ TEST_CASE("numbers are written in the least precision of printf, from six digits
     }
 }
 
-TEST_CASE("one number in printf's form", "[text]") {
+TEST_CASE("formatted() writes one number as printf does", "[text]") {
     for (double const x : {0.0, -2.5, 1234.5678, 1e-7, 6.02e23})
         for (char const* format : {"%.0f", "%.3f", "%.3g", "%g", "%e", "t = %.2e s", "%+.1f", "%.1f %%"}) {
             char text[200];
@@ -70,13 +70,13 @@ TEST_CASE("numbers in decimal notation are read, to the nearest double", "[text]
     for (std::string const word : {"", "+", "-", ".", "e5", "+-1", "++1", " 1", "1 ", "1e", "0x10", "1,5", "1.5.2", "one"})
         REQUIRE(!number_of(word));
     REQUIRE(read_whole("n", "3000000000", 1, 9000000000) == 3000000000);
-    REQUIRE(read_whole("n", "9007199254740993", 1, 9223372036854775807) == 9007199254740993); // no double
+    REQUIRE(read_whole("n", "9007199254740993", 1, 9223372036854775807) == 9007199254740993); // a double cannot represent it
     REQUIRE(read_integer("n", "1e3", 0) == 1000);
     REQUIRE(read_integer("n", "+2.0", 0) == 2);
     for (std::string const word : {"0.5", "-1", "2147483648", "1e30"}) REQUIRE_THROWS_AS(read_integer("n", word, 0), std::invalid_argument);
 }
 
-TEST_CASE("a word that is no number is refused with what is wrong with it", "[text]") {
+TEST_CASE("the refusal of a word that is not a number says what is wrong with it", "[text]") {
     for (auto const& [word, message] : {
              std::pair<std::string, std::string>{"x", "n = \"x\": must be a number"},
              {"1e400", "n = 1e400: must be finite"},
@@ -91,8 +91,8 @@ TEST_CASE("a word that is no number is refused with what is wrong with it", "[te
              {"0.5\xC2\xA0", "n = \"0.5\xC2\xA0\": must be a number; it has a no-break space, U+00A0"},
              {"\xEF\xBC\x91", "n = \"\xEF\xBC\x91\": must be a number; it has the character U+FF11"},
              {"1\xE2", "n = \"1\xE2\": must be a number; it has the byte 0xe2"}})
-        REQUIRE(why(word) == message);
-    REQUIRE(why(std::string(1000, 'x')).size() < 120);
+        REQUIRE(refusal_of(word) == message);
+    REQUIRE(refusal_of(std::string(1000, 'x')).size() < 120);
 }
 
 TEST_CASE("lines end with LF, CR LF or CR, a byte order mark is no part of a text, NUL bytes and UTF-16 are refused", "[text]") {

@@ -33,18 +33,18 @@ TEST_CASE("contact: parameters of two materials", "[contact]") {
     REQUIRE(smooth.shear_compliance == 0);
 }
 
-TEST_CASE("contact: open, pressed, sticking, sliding", "[contact]") {
+TEST_CASE("contact: separated, pressed, sticking, sliding", "[contact]") {
     frictional_spring::parameters<double> const p{100, 50, 1 / 50.0, 0.5};
-    frictional_spring::history<double, 2> const fresh{3, {0}};
-    auto const open = frictional_spring::evaluate(p, at(3.1, 0.2), fresh);
-    REQUIRE(open.normal_force == 0);
-    REQUIRE(open.shear_force[0] == 0);
-    REQUIRE(open.history.shear_force[0] == 0);
-    REQUIRE(open.stored_energy == 0);
-    REQUIRE(open.dissipated_energy == 0);
+    frictional_spring::history<double, 2> const unloaded{3, {0}};
+    auto const apart = frictional_spring::evaluate(p, at(3.1, 0.2), unloaded);
+    REQUIRE(apart.normal_force == 0);
+    REQUIRE(apart.shear_force[0] == 0);
+    REQUIRE(apart.history.shear_force[0] == 0);
+    REQUIRE(apart.stored_energy == 0);
+    REQUIRE(apart.dissipated_energy == 0);
 
     // Overlap 0.1: N = 10, Coulomb limit 5. A slip of 0.04 gives 2: sticks.
-    auto const stick = frictional_spring::evaluate(p, at(2.9, 0.04), fresh);
+    auto const stick = frictional_spring::evaluate(p, at(2.9, 0.04), unloaded);
     REQUIRE_THAT(stick.normal_force, WithinRel(-10.0, 1e-12));
     REQUIRE_THAT(stick.shear_force[0], WithinRel(2.0, 1e-12));
     REQUIRE_THAT(stick.stored_energy, WithinRel(0.5 * 10 * 0.1 + 0.5 * 2 * 0.04, 1e-12));
@@ -58,7 +58,7 @@ TEST_CASE("contact: open, pressed, sticking, sliding", "[contact]") {
     REQUIRE_THAT(back.shear_force[0], WithinRel(-5.0, 1e-12));
 }
 
-TEST_CASE("contact: a touching distance of its own until it opens", "[contact]") {
+TEST_CASE("contact: a touching distance other than r_i + r_j lasts until the pair separates", "[contact]") {
     frictional_spring::parameters<double> const p{100, 50, 1 / 50.0, 0.5};
     for (double const start : {2.9, 3.05}) {
         auto const h = frictional_spring::initial<double, 2>(start, 3);
@@ -71,7 +71,7 @@ TEST_CASE("contact: a touching distance of its own until it opens", "[contact]")
         REQUIRE(away.history.touching_distance == 3);
         REQUIRE(frictional_spring::evaluate(p, at(3.0), away.history).normal_force == 0);
     }
-    // One that overlaps at its touching distance does not get a force back by opening only in part.
+    // A pair that overlaps at its touching distance gets no force when it separates only in part.
     auto const part = frictional_spring::evaluate(p, at(2.95), frictional_spring::initial<double, 2>(2.9, 3));
     REQUIRE(part.normal_force == 0);
     REQUIRE(part.history.touching_distance == 2.9);
@@ -121,11 +121,11 @@ TEST_CASE("bond: tension, compression, shear, failure", "[bond]") {
     REQUIRE_FALSE(sheared.broken_in_tension);
     REQUIRE_FALSE(brittle_spring_bond::evaluate(p, at(3.2, 0.0599), h).broken);
     REQUIRE_FALSE(brittle_spring_bond::evaluate(p, at(3.2399), h).broken);
-    // 5 N of 4 and 3.6 N of 3: ratios 1.25 and 1.2; 4.4 N of 4: ratio 1.1.
+    // 5 N over 4 N and 3.6 N over 3 N: ratios 1.25 and 1.2; 4.4 N over 4 N: ratio 1.1.
     REQUIRE(brittle_spring_bond::evaluate(p, at(3.25, 0.072), h).broken_in_tension);
     REQUIRE_FALSE(brittle_spring_bond::evaluate(p, at(3.244, 0.072), h).broken_in_tension);
 
-    // 0.1 of compression: 10 N, capped at 4; 0.06 of it plastic, 0.24 J crushed.
+    // Compression by 0.1 m: 10 N, capped at 4 N; 0.06 m of it is plastic and dissipates 0.24 J.
     auto const crushed = brittle_spring_bond::evaluate(p, at(3.1), h);
     REQUIRE_FALSE(crushed.broken);
     REQUIRE_THAT(crushed.normal_force, WithinRel(-4.0, 1e-12));
@@ -149,7 +149,7 @@ TEST_CASE("bond: shear strength does not depend on the normal force", "[bond]") 
     }
 }
 
-TEST_CASE("bond: a proportional path leaves the safety zone where the rectangle says", "[bond]") {
+TEST_CASE("bond: a proportional path leaves the safety zone at the rectangle's edge", "[bond]") {
     double const pi = 3.14159265358979324;
     for (int const psi : {0, 15, 26, 27, 30, 44, 46, 60, 75, 90})
         for (std::string const key : {"kn=ks,sn=ss", "kn=ks,ss=0.5sn"}) {
@@ -186,7 +186,7 @@ TEST_CASE("damping policies", "[damping]") {
     }
 }
 
-TEST_CASE("no interaction is none", "[contact]") {
+TEST_CASE("no_interaction has no force and no stiffness", "[contact]") {
     auto const p = no_contact::combine({}, {}, 1);
     auto const a = no_contact::evaluate(p, at(1, 1), no_contact::initial<double, 2>(3, 3));
     REQUIRE(a.normal_force == 0);

@@ -12,7 +12,7 @@
 #include "catch.hpp"
 
 /// \file
-/// One formula, many scalar types: lanes of packs against plain numbers, dual numbers against tangents by hand.
+/// One formula for many scalar types: lanes of packs against plain numbers, dual numbers against tangents by hand.
 
 using namespace lacuna;
 
@@ -33,7 +33,7 @@ auto random_parameters(random_numbers& r) {
                                                        r(0.5, 5.0), r(0.5, 5.0), 0.7};
 }
 
-/// Fields of aggregates of vec and scalar, in a row.
+/// The scalars of lane k of an aggregate of packs.
 template <class Real, int W, class Aggregate>
 auto lane(Aggregate const& all, int k) {
     std::array<Real, sizeof(Aggregate) / sizeof(pack<Real, W>)> r{};
@@ -42,6 +42,7 @@ auto lane(Aggregate const& all, int k) {
     for (std::size_t f = 0; f < r.size(); ++f) r[f] = from[f][k];
     return r;
 }
+/// The scalars of an aggregate.
 template <class Real, class Aggregate>
 auto row(Aggregate const& one) {
     std::array<Real, sizeof(Aggregate) / sizeof(Real)> r;
@@ -53,9 +54,9 @@ template <class Law, class Real, int W, int Dim>
 void check_lanes() {
     using P = pack<Real, W>;
     random_numbers r;
-    int broken = 0, capped = 0, slid = 0, open = 0;
+    int broken = 0, capped = 0, slid = 0, apart = 0;
     for (int round = 0; round < 200; ++round) {
-        // Filled lane by lane through rows of numbers: all are aggregates of one scalar type.
+        // All inputs are aggregates of one scalar type and are filled lane by lane.
         std::array<pair_motion<Real, Dim>, W> motion;
         std::array<typename Law::template parameters<Real>, W> parameter;
         std::array<typename Law::template history<Real, Dim>, W> history;
@@ -88,7 +89,7 @@ void check_lanes() {
         for (int k = 0; k < W; ++k) {
             auto const s = std::size_t(k);
             auto const one = Law::evaluate(parameter[s], motion[s], history[s]);
-            // The compiler may contract products and sums differently: to a few roundings, of the largest terms.
+            // The compiler may contract products and sums differently: a few roundings of the largest terms are allowed.
             double const eps = 16 * double(std::numeric_limits<Real>::epsilon());
             auto const same = [&](Real a, Real b, double scale) {
                 REQUIRE_THAT(double(a), WithinAbs(double(b), eps * scale));
@@ -98,10 +99,10 @@ void check_lanes() {
             for (int a = 0; a < shear_dim<Dim>; ++a) same(all.shear_force[a][k], one.shear_force[a], force);
             same(all.stored_energy[k], one.stored_energy, force * 0.3);
             same(all.dissipated_energy[k], one.dissipated_energy, force * 0.3);
-            auto const kept = lane<Real, W>(all.history, k);
+            auto const found = lane<Real, W>(all.history, k);
             auto const expected = row<Real>(one.history);
-            for (std::size_t f = 0; f < kept.size(); ++f) same(kept[f], expected[f], f == 0 ? 3 : force);
-            open += one.normal_force == 0;
+            for (std::size_t f = 0; f < found.size(); ++f) same(found[f], expected[f], f == 0 ? 3 : force);
+            apart += one.normal_force == 0;
             if constexpr (std::is_same_v<Law, brittle_spring_bond>) {
                 REQUIRE(all.broken[k] == one.broken);
                 if (one.broken) REQUIRE(all.broken_in_tension[k] == one.broken_in_tension);
@@ -117,11 +118,11 @@ void check_lanes() {
         REQUIRE(capped > 10 * W);
     } else {
         REQUIRE(slid > 10 * W);
-        REQUIRE(open > 10 * W);
+        REQUIRE(apart > 10 * W);
     }
 }
 
-using two = dual<double, 2>; // derivatives by distance and slip
+using two = dual<double, 2>; // with derivatives by distance and slip
 
 template <class Law>
 auto tangent(typename Law::template parameters<double> const& p, double distance, double slip, double shear_before,
@@ -155,7 +156,7 @@ void check_against_differences(typename Law::template parameters<double> const& 
 
 } // namespace
 
-TEST_CASE("each lane of a pack is the plain formula", "[pack]") {
+TEST_CASE("each lane of a pack agrees with the plain formula", "[pack]") {
     check_lanes<frictional_spring, double, 2, 2>();
     check_lanes<frictional_spring, double, 4, 3>();
     check_lanes<frictional_spring, double, 8, 2>();
@@ -192,9 +193,9 @@ TEST_CASE("tangents of the contact", "[dual]") {
     auto const slide = tangent<frictional_spring>(p, 2.9, 0.2, 1, 3);
     REQUIRE(slide.shear_force[0].derivative[0] == -50); // F_s = mu k_n (L - d)
     REQUIRE(slide.shear_force[0].derivative[1] == 0);
-    auto const open = tangent<frictional_spring>(p, 3.1, 0.2, 1, 3);
-    REQUIRE(open.normal_force.derivative[0] == 0);
-    REQUIRE(open.shear_force[0].derivative[1] == 0);
+    auto const apart = tangent<frictional_spring>(p, 3.1, 0.2, 1, 3);
+    REQUIRE(apart.normal_force.derivative[0] == 0);
+    REQUIRE(apart.shear_force[0].derivative[1] == 0);
     for (double const distance : {2.9, 3.1})
         for (double const slip : {0.01, 0.2, -0.3}) check_against_differences<frictional_spring>(p, distance, slip, 1, 3);
 }

@@ -47,21 +47,21 @@ TEST_CASE("strengths by Weibull have his distribution and moments", "[weibull]")
             }
             double const variance = std::tgamma(1 + 2 / m) / (gamma * gamma) - 1;
             INFO("m = " << m << ", seed " << seed);
-            // Within four standard errors of the mean, and Kolmogorov's 99.9 % point.
+            // Limits: four standard errors of the mean, and the 99.9 % point of Kolmogorov's distribution.
             CHECK_THAT(mean, WithinAbs(1, 4 * std::sqrt(variance / count)));
             CHECK_THAT(std::sqrt(square - mean * mean), WithinRel(std::sqrt(variance), 0.03));
             CHECK(distance < 1.95 / std::sqrt(double(count)));
         }
 }
 
-TEST_CASE("a bond's strength follows from its particles and the seed alone", "[weibull]") {
+TEST_CASE("a bond's strength depends on its particles and the seed alone", "[weibull]") {
     auto bonds = many_bonds(300);
     weibull_strengths const law{5, 3};
     auto const values = law.draw(bonds);
-    auto turned = bonds;
-    std::reverse(turned.begin(), turned.end());
-    for (auto& b : turned) std::swap(b[0], b[1]);
-    auto const again = law.draw(turned);
+    auto reversed = bonds;
+    std::reverse(reversed.begin(), reversed.end());
+    for (auto& b : reversed) std::swap(b[0], b[1]);
+    auto const again = law.draw(reversed);
     for (std::size_t b = 0; b < bonds.size(); ++b)
         REQUIRE(*values[b].strength_factor == *again[bonds.size() - 1 - b].strength_factor);
     REQUIRE(*values[0].strength_factor != *weibull_strengths{5, 4}.draw(bonds)[0].strength_factor);
@@ -70,7 +70,7 @@ TEST_CASE("a bond's strength follows from its particles and the seed alone", "[w
     REQUIRE_THROWS_WITH((weibull_strengths{0.05, 1}.draw(bonds)), contains_text("weibull_strengths.modulus = 0.05: must be at least 0.1"));
 }
 
-TEST_CASE("a factor of strength scales what the materials give", "[bond values]") {
+TEST_CASE("a strength factor scales the strengths of the materials", "[bond values]") {
     bond_values weak;
     weak.strength_factor = 0.25;
     REQUIRE_FALSE(weak.empty());
@@ -82,7 +82,7 @@ TEST_CASE("a factor of strength scales what the materials give", "[bond values]"
     REQUIRE(parallel_bond::with_values<2>(cement, weak, 0.5, 0.7).tensile_strength == 2);
     beam_bond::material const steel{100, 0.25, 8, 4};
     REQUIRE(beam_bond::with_values<3>(beam_bond::combine(steel, steel, 1), weak, 0.5, 0.7).shear_strength == 1);
-    // A force of its own comes before it.
+    // The bond's own breaking force takes precedence over the factor.
     weak.tensile_force = 3.0;
     REQUIRE(brittle_spring_bond::with_values<2>(spring, weak, 0.5, 0.7).tensile_strength == 3);
     weak.strength_factor = -1;
@@ -113,7 +113,7 @@ TEST_CASE("Mohr-Coulomb's line with a tension cut-off by hand", "[envelope]") {
         CHECK(failure.broken == r.broken);
         if (r.broken) CHECK(failure.in_tension == r.in_tension);
     }
-    // Without a cut-off the apex of the line, c / tan phi = 20 N, is one.
+    // Without a cut-off, the apex of the line, c / tan phi = 20 N, is the tensile strength.
     CHECK_FALSE(mohr_coulomb_envelope::check_strength(p, 19.9, 0.0, 1e30, 10.0).broken);
     CHECK(mohr_coulomb_envelope::check_strength(p, 20.1, 0.0, 1e30, 10.0).broken);
     CHECK(mohr_coulomb_envelope::check_strength(p, 20.1, 0.0, 1e30, 10.0).in_tension);
@@ -123,7 +123,7 @@ TEST_CASE("Mohr-Coulomb's line with a tension cut-off by hand", "[envelope]") {
     CHECK(mohr_coulomb_envelope::check_strength(level, -1e3, 10.1, 4.0, 10.0).broken);
 }
 
-TEST_CASE("Mohr-Coulomb's bond has the springs of the paper's, and is not crushed", "[envelope][pack]") {
+TEST_CASE("Mohr-Coulomb's bond has the paper's springs, and does not yield in compression", "[envelope][pack]") {
     using law = mohr_coulomb_bond;
     law::material const rock{100, 60, 5, 7, {0.6}};
     rock.validate("rock");
@@ -159,7 +159,7 @@ TEST_CASE("Mohr-Coulomb's bond has the springs of the paper's, and is not crushe
     for (int k = 0; k < 4; ++k) REQUIRE(answer.broken[k] == (k >= 2));
 }
 
-TEST_CASE("the moment against rolling: spring, limit, and where the energy goes", "[rolling]") {
+TEST_CASE("the moment against rolling: spring, limit and energy", "[rolling]") {
     using law = rolling_spring;
     law::material const sand{1e4, 2e3, 0.5, 0.1, 1.5};
     auto const p = law::combine(sand, {1e4, 2e3, 0.5, 0.3, 0.5}, 1);
@@ -177,21 +177,21 @@ TEST_CASE("the moment against rolling: spring, limit, and where the energy goes"
     double const far = 10 * limit / k;
     auto b = law::evaluate(p, m, {{far}, 0.0}, a.history);
     REQUIRE_THAT(b.bending_moment[0], WithinRel(limit, 1e-9));
-    // Work of the step = what is stored more + what slid.
+    // Work of the step = increase of the stored energy + dissipated energy.
     double const work = 0.5 * (0.25 * limit + limit) * far;
     REQUIRE_THAT(b.dissipated_energy + b.stored_energy - a.stored_energy, WithinRel(work, 1e-9));
     auto c = law::evaluate(p, m, {{-far}, 0.0}, b.history);
     REQUIRE_THAT(c.bending_moment[0], WithinRel(-limit, 1e-9));
-    // Apart, no moment.
-    pair_motion<double, 2> const open{ri + rj + 1e-6, ri, rj, {0.0}, 0};
-    REQUIRE(law::evaluate(p, open, {{part}, 0.0}, b.history).bending_moment[0] == 0);
+    // A separated pair has no moment.
+    pair_motion<double, 2> const apart{ri + rj + 1e-6, ri, rj, {0.0}, 0};
+    REQUIRE(law::evaluate(p, apart, {{part}, 0.0}, b.history).bending_moment[0] == 0);
     // In space the moment is a vector, clipped in length.
     pair_motion<double, 3> const ball{ri + rj - overlap, ri, rj, {}, 0};
     auto const d = law::evaluate(p, ball, {{0, 3 * far, 4 * far}, 0.0, {1, 0, 0}}, law::initial<double, 3>(ri + rj, ri + rj));
     REQUIRE_THAT(d.bending_moment[1], WithinRel(0.6 * limit, 1e-9));
     REQUIRE_THAT(d.bending_moment[2], WithinRel(0.8 * limit, 1e-9));
     REQUIRE(d.twisting_moment == 0);
-    // Springs and friction are frictional_spring's own.
+    // Springs and friction are those of frictional_spring.
     auto const plain = frictional_spring::combine({1e4, 2e3, 0.5}, {1e4, 2e3, 0.5}, 1);
     pair_motion<double, 2> const slides{ri + rj - overlap, ri, rj, {0.02}, 0};
     auto const e = law::evaluate(p, slides, law::initial<double, 2>(ri + rj, ri + rj));
@@ -217,9 +217,9 @@ TEST_CASE("a beam's stiffness and the stress at its rim by hand", "[moment]") {
     REQUIRE_THAT(a.normal_force, WithinRel(E * A * 0.001, 1e-9));
     REQUIRE_THAT(a.shear_force[0], WithinRel(V, 1e-12));
     REQUIRE_THAT(a.bending_moment[0], WithinRel(M + e * V, 1e-12));
-    // The work of forces and moments along the way is the energy.
+    // The stored energy is the work of forces and moments.
     REQUIRE_THAT(a.stored_energy, WithinRel(0.5 * (E * A * 0.001 * 0.001 * L + V * 1e-3 + (M + e * V) * 2e-3), 1e-9));
-    // Cantilever's stress: at the far end of the beam M + V L/2.
+    // The stress is largest at the end of the beam where the moment is M + V L/2.
     double const stress = E * 0.001 + (std::fabs(M) + std::fabs(V) * 1.001 * L / 2) * R / I;
     for (double const over : {0.999, 1.001}) {
         law::material weak = steel;
@@ -234,7 +234,8 @@ TEST_CASE("a beam's stiffness and the stress at its rim by hand", "[moment]") {
         REQUIRE(c.broken == (over > 1));
         if (c.broken) REQUIRE_FALSE(c.broken_in_tension);
     }
-    // In space, without shear: 12 E I / L^3, G J / L; the slip lies along y, the turn about z, the normal along x.
+    // In space, without shear deformation: 12 E I / L^3, G J / L. The normal is along x, the slip along y, the rotation
+    // about z.
     law::material const slim{E, nu, 1e9, 1e9, 0.8};
     auto const q = law::combine(slim, slim, t);
     double const round = 3.14159265358979 * R * R * R * R / 4;

@@ -28,8 +28,8 @@ double order(std::vector<double> const& step, std::vector<double> const& error) 
 
 } // namespace
 
-TEST_CASE("uniform acceleration is integrated as the scheme's sum", "[motion]") {
-    // x_n = g dt^2 n (n + 1) / 2, exactly that of semi-implicit steps; v_n = n g dt.
+TEST_CASE("uniform acceleration gives the positions and velocities of the scheme", "[motion]") {
+    // Semi-implicit steps give exactly x_n = g dt^2 n (n + 1) / 2 and v_n = n g dt.
     auto p = springs<plane>(1, 1);
     p.gravity = {0.5, -2};
     p.time_step = 0.125;
@@ -45,7 +45,7 @@ TEST_CASE("uniform acceleration is integrated as the scheme's sum", "[motion]") 
     REQUIRE_THAT(run.time(), WithinRel(4.0, 1e-15));
 }
 
-TEST_CASE("loads act on the particles that have them, and take memory for their blocks alone", "[motion]") {
+TEST_CASE("loads act on their particles only, and need memory only for the blocks of these", "[motion]") {
     // 700 discs far from each other: six blocks of at most 128.
     auto p = springs<plane>(1, 1);
     p.time_step = 0.125;
@@ -71,7 +71,7 @@ TEST_CASE("loads act on the particles that have them, and take memory for their 
     REQUIRE(store.applied_force(inside(one - 1))[1] == 0);
 }
 
-TEST_CASE("a torque turns a disc, and the orientation is a unit vector", "[motion]") {
+TEST_CASE("a torque rotates a disc, and the orientation is a unit vector", "[motion]") {
     auto p = springs<plane>(1, 1, 0, unit_density(2));
     p.time_step = 0.01;
     lacuna::packing<double, 2> one;
@@ -86,7 +86,7 @@ TEST_CASE("a torque turns a disc, and the orientation is a unit vector", "[motio
     REQUIRE_THAT(run.orientation(0)[1], WithinRel(std::sin(angle), 1e-12));
 }
 
-TEST_CASE("prescribed axes keep their velocity, the others do not", "[motion]") {
+TEST_CASE("the velocity along prescribed axes stays, along others it changes", "[motion]") {
     auto p = springs<plane>(1, 1, 0, unit_density(2));
     p.time_step = 0.01;
     lacuna::packing<double, 2> one;
@@ -115,7 +115,7 @@ TEST_CASE("a load ramps up linearly", "[motion]") {
 }
 
 TEST_CASE("the scheme is of second order in the positions", "[motion][order]") {
-    // One disc on a spring, omega = 1. Velocities stand half a step before the positions: v(-dt/2) = cos(dt/2).
+    // One disc on a spring, omega = 1. Velocities belong to half a step before the positions: v(-dt/2) = cos(dt/2).
     std::vector<double> steps, errors;
     for (int n = 50; n <= 800; n *= 2) {
         auto p = springs<plane>(1, 1, 0, unit_density(2));
@@ -174,7 +174,7 @@ TEST_CASE("the bound is above every eigenfrequency of random assemblies", "[stab
         REQUIRE_THAT(bound.time_step(), WithinRel(2 / bound.frequency(), 1e-15));
         tightest = std::max(tightest, exact / bound.frequency());
     }
-    REQUIRE(tightest > 0.7); // a bound that is far off would pass the above
+    REQUIRE(tightest > 0.7); // the checks above would also accept a bound that is far too large
     REQUIRE(lacuna::frequency_bound<2>(3).frequency() == 0);
     REQUIRE(lacuna::frequency_bound<2>(3).time_step() == never);
 }

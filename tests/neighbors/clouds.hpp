@@ -31,7 +31,7 @@ lacuna::vec<Real, Dim> random_point(std::mt19937_64& rng, double length) {
     return p;
 }
 
-/// The inputs on which every search is tried; lengths of the order of micrometres in metres, as in a cartilage run.
+/// The inputs for every search. Lengths are micrometres, in m, as in a cartilage simulation.
 template <class Real, int Dim>
 std::vector<cloud<Real, Dim>> all_clouds() {
     using point = lacuna::vec<Real, Dim>;
@@ -138,8 +138,8 @@ std::vector<cloud<Real, Dim>> all_clouds() {
     return all;
 }
 
-/// Every pair with distance <= r_i + r_j + margin, from the definition, in wider arithmetic. `doubtful` counts
-/// the pairs so close to the limit that rounding decides: tests use inputs without any.
+/// Every pair with distance <= r_i + r_j + margin, from the definition, in long double. `doubtful` counts pairs so
+/// close to the limit that rounding decides: tests use inputs without such pairs.
 template <class Real, int Dim>
 std::vector<neighbor_pair> reference_pairs(std::vector<lacuna::vec<Real, Dim>> const& points,
                                            std::vector<Real> const& radii, Real margin, int& doubtful) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
-// First, so that no other header is compiled under the names it lends.
+// First, so that its macros rename nothing in other headers.
 #include "nanoflann_1_5.hpp"
 
 #include <lacuna/neighbors/kd_tree.hpp>
@@ -12,7 +12,7 @@ namespace {
 
 template <class Real, int Dim>
 void agrees_with_definition() {
-    lacuna::kd_tree<Real, Dim> search; // the one on the newer interface
+    lacuna::kd_tree<Real, Dim> search; // compiled with the newer interface
     std::vector<lacuna::neighbor_pair> found;
     for (auto const& c : clouds::all_clouds<Real, Dim>()) {
         INFO(c.name);

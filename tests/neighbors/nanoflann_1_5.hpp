@@ -2,17 +2,17 @@
 #pragma once
 
 /// \file
-/// The nanoflann at hand, with the names and the habits that the tree has had since nanoflann 1.5, so that
-/// lacuna/neighbors/kd_tree.hpp can be compiled against both generations where only the older is installed:
+/// Wraps the installed nanoflann in the interface that it has had since 1.5. So lacuna/neighbors/kd_tree.hpp can be
+/// compiled with both interfaces, even if only an older nanoflann is installed:
 ///
 /// * `SearchParams` is called `SearchParameters`, and has a default value in every search (from 1.5 on);
-/// * a result set must name its `DistanceType` and offer `empty()` (later ones, as 1.12);
-/// * it must name its `IndexType`, that of the tree (1.10 and later);
-/// * a search that is to be sorted, the default, calls `sort()` of the result set (later ones, as 1.12).
+/// * a result set must name its `DistanceType` and have `empty()` (later versions, such as 1.12);
+/// * it must name its `IndexType`, that of the tree (from 1.10 on);
+/// * a sorted search, the default, calls `sort()` of the result set (later versions, such as 1.12).
 ///
-/// The tree itself is the real one. Where nanoflann is 1.5 or newer itself, only the last two are laid on top.
-/// Include this before kd_tree.hpp: everything, the search too, then carries another name, so that one program
-/// can hold both.
+/// The tree itself is the installed one. If the installed nanoflann is 1.5 or newer, the wrapper adds only the last
+/// two. Include this file before kd_tree.hpp: all names, also that of the search, are then different, so that one
+/// program can use both.
 
 #include <cstdint>
 #include <type_traits>

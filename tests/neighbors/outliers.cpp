@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One particle that is huge, or fast, or far away among many that are not: no pair is missed, and the others pay nothing.
+// One huge, fast or distant particle among many ordinary ones: searches miss no pair, and the others cost no more.
 
 #include <cmath>
 #include <limits>
@@ -28,9 +28,9 @@ struct course {
     std::size_t candidates = 0;
 };
 
-/// A crowd whose last particle stands out; its list is kept as long as due() says.
+/// Moves a crowd of particles, of which the last is an outlier. Rebuilds the list whenever it is due().
 template <class Search>
-course follow(outlier what, std::size_t n, int steps, bool brute = true) {
+course follow(outlier kind, std::size_t n, int steps, bool brute = true) {
     using Real = typename Search::real_type;
     constexpr int Dim = Search::dim;
     std::mt19937_64 rng(5);
@@ -43,11 +43,11 @@ course follow(outlier what, std::size_t n, int steps, bool brute = true) {
         velocities.push_back(v);
         radii.push_back(Real(0.6 + 0.6 * clouds::uniform(rng)));
     }
-    if (what == outlier::huge) {
+    if (kind == outlier::huge) {
         radii.back() = 500;
         points.back()[1] = -500;
     }
-    if (what == outlier::fast) velocities.back()[0] = Real(0.06);
+    if (kind == outlier::fast) velocities.back()[0] = Real(0.06);
     lacuna::verlet_list<Search> list({.skin = Real(0.5), .margin = 0});
     list.build_for_motion(lacuna::view_points(points), radii);
     int missed = 0, touching = 0;
@@ -83,21 +83,23 @@ course follow(outlier what, std::size_t n, int steps, bool brute = true) {
 
 } // namespace
 
-TEMPLATE_TEST_CASE("a list that particles of all speeds and sizes share misses no pair, and is built as rarely", "[neighbors][outliers]",
+TEMPLATE_TEST_CASE("a list of particles of all speeds and sizes misses no pair, and is built no more often", "[neighbors][outliers]",
                    (lacuna::cell_grid<double, 2>), (lacuna::cell_grid<float, 2>), (lacuna::cell_grid<double, 3>),
                    (lacuna::cell_grid<float, 3>), (lacuna::kd_tree<double, 2>)) {
     auto const usual = follow<TestType>(outlier::none, 400, 300);
     auto const fast = follow<TestType>(outlier::fast, 400, 300);
     auto const huge = follow<TestType>(outlier::huge, 400, 300);
     CHECK(usual.builds >= 3);
-    // The first build knows nothing of motion: the fast one makes one more. By half the skin it would be 300 * 0.06 / 0.25 = 72.
+    // The first build has no information on motion, so the fast particle causes one more. With half a skin for all, it
+    // would cause 300 * 0.06 / 0.25 = 72.
     CHECK(fast.builds <= usual.builds + 4);
     CHECK(fast.candidates < usual.candidates + 150);
     CHECK(huge.builds <= usual.builds + 2);
 }
 
-TEST_CASE("a skin of one's own is for the few that are much faster than all others", "[neighbors][outliers]") {
-    // 300 particles in a row. Half a skin is 1; the cap of one particle that is fast is 32 others in the plane: sqrt(32 + 1) - 1.
+TEST_CASE("only a few particles that are much faster than all others get a larger reach", "[neighbors][outliers]") {
+    // 300 particles in a row. Half a skin is 1. The reach of a single fast particle may contain 32 others in the plane:
+    // sqrt(32 + 1) - 1.
     std::vector<lacuna::vec<double, 2>> before, now;
     std::vector<double> const radii(300, 1.0);
     for (int k = 0; k < 300; ++k) {
@@ -108,26 +110,26 @@ TEST_CASE("a skin of one's own is for the few that are much faster than all othe
     auto const choose = [&] { own.choose(lacuna::view_points(now), before, radii, 1.0, 1e30); };
     choose();
     for (std::size_t k = 0; k < 300; ++k) CHECK(own.ordinary(k));
-    now[7][1] = 1.5; // three times as far as the others: as often half a skin, a quarter more, and a quarter of the skin to spare
+    now[7][1] = 1.5; // 3 times the displacement of the others: 3 times half a skin, 25 % more, plus a quarter of the skin
     choose();
     CHECK_THAT(own[7], Catch::Matchers::WithinRel(1.5 * 2 * 1.25 + 0.5, 1e-12));
     now[7][1] = 180;
     choose();
     CHECK_THAT(own[7], Catch::Matchers::WithinRel(std::sqrt(33.0) - 1, 1e-12));
-    own.choose(lacuna::view_points(now), before, radii, 1.0, 2.5); // no room for more
+    own.choose(lacuna::view_points(now), before, radii, 1.0, 2.5); // limits the reach to 2.5
     CHECK(own[7] == 2.5);
-    for (std::size_t k = 0; k < 20; ++k) now[k][1] = 180; // many: a flow, not one that stands out
+    for (std::size_t k = 0; k < 20; ++k) now[k][1] = 180; // too many to be outliers
     choose();
     for (std::size_t k = 0; k < 300; ++k) CHECK(own.ordinary(k));
 }
 
-TEST_CASE("the median radius is that of most particles", "[neighbors][outliers]") {
+TEST_CASE("outliers do not change the median radius", "[neighbors][outliers]") {
     CHECK(lacuna::median_radius(std::span<double const>{}) == 0);
     CHECK(lacuna::median_radius(std::span<double const>(std::vector<double>{2, 1e9, 1, 1e-9, 3})) == 2);
     CHECK(lacuna::median_radius(std::span<double const>(std::vector<double>{4, 1})) == 1);
 }
 
-TEST_CASE("pairs may be added to a Verlet list at any distance", "[neighbors][outliers]") {
+TEST_CASE("pairs of any distance can be added to a Verlet list", "[neighbors][outliers]") {
     std::vector<lacuna::vec<double, 2>> const points{{0, 0}, {2, 0}, {50, 0}};
     std::vector<double> const radii{1, 1, 1};
     lacuna::verlet_list<lacuna::brute_force<double, 2>> list({.skin = 0.5, .margin = 0});
@@ -138,7 +140,7 @@ TEST_CASE("pairs may be added to a Verlet list at any distance", "[neighbors][ou
     CHECK(list.pairs() == std::vector<neighbor_pair>{{0, 1}});
 }
 
-TEST_CASE("a k-d tree stops at the number of pairs that is allowed", "[neighbors][outliers]") {
+TEST_CASE("a k-d tree stops at the largest number of pairs", "[neighbors][outliers]") {
     std::vector<lacuna::vec<double, 2>> const points(100, lacuna::vec<double, 2>{1, 1}); // 4950 pairs
     std::vector<double> const radii(100, 1.0);
     std::vector<neighbor_pair> found;
@@ -153,7 +155,7 @@ TEST_CASE("a k-d tree stops at the number of pairs that is allowed", "[neighbors
 
 namespace {
 
-/// One of radius 4 among others of 0.2 to 0.3, in a box that repeats itself, by trying all pairs and all images.
+/// One particle of radius 4 among others of 0.2 to 0.3 in a periodic box: compares with a test of all pairs and images.
 template <class Search>
 void check_huge_in_period() {
     using Real = typename Search::real_type;
@@ -178,8 +180,8 @@ void check_huge_in_period() {
         auto const periods = lacuna::periods<double, Dim>::of(lacuna::convert<double>(period));
         for (std::size_t i = 0; i < points.size(); ++i)
             for (std::size_t j = i + 1; j < points.size(); ++j) {
-                auto const way = periods.shortest(lacuna::convert<double>(points[j]) - lacuna::convert<double>(points[i]));
-                if (norm(way) <= double(radii[i]) + double(radii[j]) + double(margin)) expected.push_back({std::int32_t(i), std::int32_t(j)});
+                auto const between = periods.shortest(lacuna::convert<double>(points[j]) - lacuna::convert<double>(points[i]));
+                if (norm(between) <= double(radii[i]) + double(radii[j]) + double(margin)) expected.push_back({std::int32_t(i), std::int32_t(j)});
             }
         CHECK(expected.size() > 20);
         CHECK(found == expected);
@@ -188,7 +190,7 @@ void check_huge_in_period() {
 
 } // namespace
 
-TEST_CASE("a huge particle at the ends of a period meets all that it touches", "[neighbors][outliers][periodic]") {
+TEST_CASE("a huge particle at the ends of a period finds all that it touches", "[neighbors][outliers][periodic]") {
     check_huge_in_period<lacuna::brute_force<double, 2>>();
     check_huge_in_period<lacuna::cell_grid<double, 2>>();
     check_huge_in_period<lacuna::cell_grid<double, 3>>();

@@ -24,7 +24,7 @@ struct cloud {
     std::vector<Real> radii;
 };
 
-/// Some of them several periods away.
+/// Random particles, some of them in other periods.
 template <class Real, int Dim>
 cloud<Real, Dim> scattered(int count, vec<Real, Dim> const& size, std::uint64_t seed) {
     std::mt19937_64 engine(seed);
@@ -39,7 +39,7 @@ cloud<Real, Dim> scattered(int count, vec<Real, Dim> const& size, std::uint64_t 
     return c;
 }
 
-/// By trying all pairs and all images next to the nearest one, in double precision.
+/// The reference: tests all pairs and images, in double precision.
 template <class Real, int Dim>
 std::vector<neighbor_pair> by_definition(cloud<Real, Dim> const& c, vec<Real, Dim> const& period, double margin) {
     std::vector<neighbor_pair> pairs;
@@ -58,14 +58,14 @@ std::vector<neighbor_pair> by_definition(cloud<Real, Dim> const& c, vec<Real, Di
     return pairs;
 }
 
-/// All pairs of the definition, and no other but those that roundings of places make one.
+/// The list must have all pairs of the definition. Others may only be due to rounded positions.
 template <class Real, int Dim>
 void check_list(std::vector<neighbor_pair> const& found, cloud<Real, Dim> const& c, vec<Real, Dim> const& period, double margin) {
     auto const before = [](neighbor_pair const& a, neighbor_pair const& b) { return a.i < b.i || (a.i == b.i && a.j < b.j); };
     double const rounding = 500 * double(std::numeric_limits<Real>::epsilon());
     auto const inside = by_definition(c, period, margin), around = by_definition(c, period, margin + rounding);
     REQUIRE(inside.size() > 50);
-    CHECK(std::adjacent_find(found.begin(), found.end(), std::not_fn(before)) == found.end()); // sorted, each once
+    CHECK(std::adjacent_find(found.begin(), found.end(), std::not_fn(before)) == found.end()); // sorted, without duplicates
     CHECK(std::includes(found.begin(), found.end(), inside.begin(), inside.end(), before));
     CHECK(std::includes(around.begin(), around.end(), found.begin(), found.end(), before));
 }
@@ -74,7 +74,7 @@ template <class Search>
 void check() {
     using real = typename Search::real_type;
     constexpr int dim = Search::dim;
-    for (int which = 1; which < 1 << dim; ++which) // the axes that repeat themselves
+    for (int which = 1; which < 1 << dim; ++which) // bits: the periodic axes
         for (std::uint64_t seed = 1; seed <= 3; ++seed) {
             vec<real, dim> size{}, period{};
             for (int axis = 0; axis < dim; ++axis) {
@@ -98,7 +98,7 @@ void check() {
 
 } // namespace
 
-TEST_CASE("searches in a periodic domain find what the definition finds", "[periodic]") {
+TEST_CASE("searches in a periodic domain agree with the definition", "[periodic]") {
     check<brute_force<double, 2>>();
     check<cell_grid<double, 2>>();
     check<kd_tree<double, 2>>();

@@ -36,7 +36,7 @@ template <class Search>
 void agrees_with_definition() {
     using Real = typename Search::real_type;
     constexpr int Dim = Search::dim;
-    Search search; // one for all inputs: nothing may be left over from the one before
+    Search search; // one for all inputs: no input may affect the next
     std::vector<neighbor_pair> found{{5, 6}};
     std::size_t most = 0;
     for (auto const& c : clouds::all_clouds<Real, Dim>())
@@ -63,7 +63,7 @@ template <class Search>
 void includes_its_limit() {
     using Real = typename Search::real_type;
     constexpr int Dim = Search::dim;
-    // A 9 x 9 lattice of spacing 1, and the same an odd distance away; all numbers are exact.
+    // A 9 x 9 lattice of spacing 1, also shifted by -37; all numbers are exact.
     for (Real const shift : {Real(0), Real(-37)}) {
         vectors<Real, Dim> points;
         for (int y = 0; y < 9; ++y)
@@ -86,7 +86,7 @@ void includes_its_limit() {
         CHECK(found.size() == 2 * 9 * 8);
         search.touching_pairs(lacuna::view_points(points), std::vector<Real>(81, Real(0.5)), Real(0), found);
         CHECK(found.size() == 2 * 9 * 8);
-        // Distance 5 is (5, 0), (3, 4) and (4, 3): count those and all shorter offsets by hand.
+        // Distance 5 exactly: (5, 0), (3, 4) and (4, 3). The count includes these and all shorter offsets.
         std::size_t within_five = 0;
         for (int a = 0; a < 81; ++a)
             for (int b = a + 1; b < 81; ++b) {
@@ -167,7 +167,7 @@ void check_search() {
     SECTION("includes pairs exactly at the limit, and none beyond") {
         for_all_types<Search>([]<class S> { includes_its_limit<S>(); });
     }
-    SECTION("reads points with other numbers between them") {
+    SECTION("reads strided points") {
         for_all_types<Search>([]<class S> { reads_strided_points<S>(); });
     }
     SECTION("refuses bad input and names it") {
@@ -181,7 +181,7 @@ TEST_CASE("brute force search", "[neighbors]") { check_search<lacuna::brute_forc
 TEST_CASE("k-d tree search", "[neighbors]") { check_search<lacuna::kd_tree>(); }
 TEST_CASE("cell grid search", "[neighbors]") { check_search<lacuna::cell_grid>(); }
 
-TEST_CASE("a copied or moved k-d tree keeps its own points", "[neighbors]") {
+TEST_CASE("a copied or moved k-d tree has its own points", "[neighbors]") {
     vectors<double, 2> const points{{0, 0}, {1, 0}, {5, 5}};
     std::vector<neighbor_pair> found;
     lacuna::kd_tree<double, 2> copy;
@@ -198,8 +198,8 @@ TEST_CASE("a copied or moved k-d tree keeps its own points", "[neighbors]") {
 }
 
 TEST_CASE("the cell grid copes with particles that have flown away", "[neighbors]") {
-    // 20,000 discs of radius 1 on a square lattice of spacing 2, some of them anywhere up to 1e12 radii away. A table
-    // over the box would take 1e24 cells; comparing all pairs of the rest, or keeping them in one cell, 1e8 steps.
+    // About 20,000 discs of radius 1 on a square lattice of spacing 2, and five up to 1e12 radii away. A table over the
+    // bounding box would have 1e24 cells. With all lattice discs in one cell, the search would take 1e8 steps.
     vectors<float, 2> points;
     int const side = 140;
     for (int k = 0; k < side * side; ++k) points.push_back({float(2 * (k % side)), float(2 * (k / side))});

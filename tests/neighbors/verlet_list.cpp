@@ -71,7 +71,7 @@ void follows_random_motion() {
     CHECK(too_late == 0);
     CHECK(too_early == 0);
     CHECK(list.build_count() == builds);
-    // The fastest moves at most 0.05 sqrt(Dim) a step: several steps pass between two builds.
+    // The fastest particle moves at most 0.05 sqrt(Dim) per step: several steps pass between two builds.
     CHECK(builds > 5);
     CHECK(builds < 30);
 }
@@ -99,7 +99,7 @@ TEST_CASE("when a Verlet list is built", "[neighbors]") {
     CHECK_FALSE(list.update(lacuna::view_points(points), radii));
     CHECK(list.build_count() == 1);
 
-    SECTION("not for motion within half the skin, from where the particles were at the build") {
+    SECTION("not for displacements within half the skin since the build") {
         for (int step = 0; step < 3; ++step) {
             points[2][0] += 0.08;
             CHECK_FALSE(list.update(lacuna::view_points(points), radii));
@@ -114,7 +114,7 @@ TEST_CASE("when a Verlet list is built", "[neighbors]") {
             CHECK_FALSE(list.update(lacuna::view_points(points), radii));
         }
     }
-    SECTION("when a particle comes or goes") {
+    SECTION("when a particle is added or removed") {
         points.push_back({2.25, 2});
         radii.push_back(1);
         CHECK(list.update(lacuna::view_points(points), radii));
@@ -145,7 +145,7 @@ TEST_CASE("when a Verlet list is built", "[neighbors]") {
         points[1][1] = 1e-9;
         CHECK(bare.update(lacuna::view_points(points), radii));
     }
-    SECTION("a position that is no number is refused and named, and the list is built anew afterwards") {
+    SECTION("after a position that is not a number, which is refused and named") {
         points[1][1] = std::numeric_limits<double>::quiet_NaN();
         CHECK(list.needs_rebuild(lacuna::view_points(points)));
         std::string message;
@@ -177,8 +177,9 @@ TEST_CASE("the largest displacement since a Verlet list was built", "[neighbors]
     CHECK(list.largest_displacement(lacuna::view_points(points)) == std::numeric_limits<double>::infinity());
 }
 
-TEST_CASE("how much closer particles have come that are no pair of a Verlet list", "[neighbors]") {
-    // In a row: 0-1 is listed (gap 0.4), 1-2 (gap 1.2) and 3, 4 are not; skin 1, margin 0.1: listed up to a gap of 1.1.
+TEST_CASE("the largest approach of particles that are not a pair of a Verlet list", "[neighbors]") {
+    // Particles in a row. Skin 1, margin 0.1: pairs are listed up to a gap of 1.1. This is 0-1 (gap 0.4), but not 1-2
+    // (gap 1.2) and no pair with 3 or 4.
     std::vector<lacuna::vec<double, 2>> points{{0, 0}, {2.4, 0}, {5.6, 0}, {20, 0}, {40, 0}};
     std::vector<double> const radii{1, 1, 1, 1, 1};
     lacuna::verlet_list<lacuna::cell_grid<double, 2>> list({.skin = 1, .margin = 0.1});
@@ -187,16 +188,16 @@ TEST_CASE("how much closer particles have come that are no pair of a Verlet list
     REQUIRE(list.pairs() == std::vector<neighbor_pair>{{0, 1}});
     CHECK(approach() == 0);
     points[3][1] = 0.2;
-    CHECK(approach() == 0.2); // less than a quarter of the skin: no more is asked
-    points[3][1] = 0.75;      // alone: another may have come closer by a quarter of the skin
+    CHECK(approach() == 0.2); // less than a quarter of the skin: the displacement itself
+    points[3][1] = 0.75;      // one fast particle: another may have approached it by a quarter of the skin
     CHECK(approach() == 0.5);
-    points[0][0] = -0.6; // of a listed pair: as far as that is concerned it may move as it likes
+    points[0][0] = -0.6; // the approach of a listed pair does not count
     points[1][0] = 1.8;
     CHECK(approach() == 0.5);
     points[0][0] = 0;
-    points[1][0] = 2.4 + 0.6; // towards 2, which moves towards it: the gap is 0.2 of the 1.1 that are listed
+    points[1][0] = 2.4 + 0.6; // 1 and 2 approach each other: their gap is now 0.2, listed are gaps up to 1.1
     points[2][0] = 5.6 - 0.4;
-    CHECK_THAT(approach(), Catch::Matchers::WithinAbs(0.5, 1e-15)); // 0.9 / 2, less than what 3 may do
+    CHECK_THAT(approach(), Catch::Matchers::WithinAbs(0.5, 1e-15)); // 0.9 / 2 is less than the 0.5 due to 3
     points[3][1] = 0;
     CHECK_THAT(approach(), Catch::Matchers::WithinAbs(0.45, 1e-15));
     points[4][0] = std::numeric_limits<double>::quiet_NaN();
@@ -205,7 +206,7 @@ TEST_CASE("how much closer particles have come that are no pair of a Verlet list
 
 namespace {
 
-/// Particles of which few are fast: a list that is kept as long as the approach allows misses no pair within the margin.
+/// Few of the particles are fast. The list lasts as long as the approach allows, but must miss no pair in the margin.
 template <class Search>
 long long builds_by_approach(std::uint64_t seed, bool by_approach) {
     using Real = typename Search::real_type;
@@ -257,15 +258,15 @@ long long builds_by_approach(std::uint64_t seed, bool by_approach) {
 
 } // namespace
 
-TEST_CASE("a Verlet list is kept while the particles that it may miss are apart", "[neighbors]") {
-    long long kept = 0, without = 0;
+TEST_CASE("a Verlet list lasts longer if the approach of unlisted particles is measured", "[neighbors]") {
+    long long with = 0, without = 0;
     for (std::uint64_t seed = 1; seed <= 5; ++seed) {
-        kept += builds_by_approach<lacuna::cell_grid<double, 2>>(seed, true);
+        with += builds_by_approach<lacuna::cell_grid<double, 2>>(seed, true);
         without += builds_by_approach<lacuna::cell_grid<double, 2>>(seed, false);
-        kept += builds_by_approach<lacuna::cell_grid<float, 3>>(seed, true);
+        with += builds_by_approach<lacuna::cell_grid<float, 3>>(seed, true);
         without += builds_by_approach<lacuna::cell_grid<float, 3>>(seed, false);
     }
-    CHECK(kept < without);
+    CHECK(with < without);
 }
 
 TEST_CASE("a Verlet list refuses a bad skin or margin", "[neighbors]") {

@@ -40,19 +40,19 @@ TEST_CASE("spatial order steps from neighbour to neighbour on a grid", "[particl
     visits_neighbours<3>(8);
 }
 
-TEST_CASE("spatial order shortens the way through random points", "[particles]") {
+TEST_CASE("spatial order shortens the path through random points", "[particles]") {
     lacuna::random_source random(7);
     std::vector<vec<double, 2>> points(2000);
     for (auto& x : points) x = {random.uniform(), random.uniform()};
     auto const order = lacuna::spatial_order(lacuna::view_points(points));
-    double way = 0;
+    double path = 0;
     for (std::size_t k = 1; k < order.size(); ++k)
-        way += norm(points[std::size_t(order[k])] - points[std::size_t(order[k - 1])]);
-    // Mean step at random: 0.52. Along a Hilbert curve: of the order of the mean distance, 1/sqrt(2000) = 0.022.
-    REQUIRE(way / 1999 < 0.03);
+        path += norm(points[std::size_t(order[k])] - points[std::size_t(order[k - 1])]);
+    // Mean step in random order: 0.52. Along a Hilbert curve: of the order of the mean distance, 1/sqrt(2000) = 0.022.
+    REQUIRE(path / 1999 < 0.03);
 }
 
-TEST_CASE("spatial order of nothing, of one place, of bad numbers", "[particles]") {
+TEST_CASE("spatial order of no points, of coincident points, of bad numbers", "[particles]") {
     std::vector<vec<double, 2>> points;
     REQUIRE(lacuna::spatial_order(lacuna::view_points(points)).empty());
     points.assign(5, {1.0, 1.0});
@@ -71,13 +71,13 @@ TEST_CASE("strip order keeps the neighbours of a particle within two strips", "[
     }
     auto const order = lacuna::strip_order(lacuna::view_points(points));
     REQUIRE(std::set<int>(order.begin(), order.end()).size() == points.size());
-    std::vector<int> place(points.size());
-    for (int k = 0; k < count; ++k) place[std::size_t(order[std::size_t(k)])] = k;
+    std::vector<int> index(points.size());
+    for (int k = 0; k < count; ++k) index[std::size_t(order[std::size_t(k)])] = k;
     int farthest = 0;
     for (int i = 0; i < count; ++i)
         for (int j = 0; j < i; ++j)
             if (norm(points[std::size_t(i)] - points[std::size_t(j)]) < 1.1e-6)
-                farthest = std::max(farthest, std::abs(place[std::size_t(i)] - place[std::size_t(j)]));
+                farthest = std::max(farthest, std::abs(index[std::size_t(i)] - index[std::size_t(j)]));
     REQUIRE(farthest < 3 * columns);
 
     REQUIRE(lacuna::strip_order(lacuna::points_view<double, 2>{}).empty());
@@ -87,12 +87,13 @@ TEST_CASE("strip order keeps the neighbours of a particle within two strips", "[
     REQUIRE_THROWS_WITH(lacuna::strip_order(lacuna::view_points(bad)), contains_text("particle 1.position"));
 }
 
-TEST_CASE("strip order does not ask in which order points come, however near they are", "[particles]") {
-    // Less the body's end, -1e-30 and 0 are one number.
+TEST_CASE("strip order does not depend on the order of the input, however close points are", "[particles]") {
+    // Relative to the lowest coordinate, -1e-30 and 0 round to the same number.
     std::vector<vec<double, 2>> const points{{0, 0}, {3, 0}, {0.5, 0.75}, {-0.5, 0.75}, {-1, 0}, {-1e-30, 0}, {0.25, -1e-30}, {0.5, -0.75}};
-    auto turned = points;
-    std::reverse(turned.begin(), turned.end());
-    auto const order = lacuna::strip_order(lacuna::view_points(points)), other = lacuna::strip_order(lacuna::view_points(turned));
+    auto reversed = points;
+    std::reverse(reversed.begin(), reversed.end());
+    auto const order = lacuna::strip_order(lacuna::view_points(points));
+    auto const other = lacuna::strip_order(lacuna::view_points(reversed));
     for (std::size_t k = 0; k < order.size(); ++k)
         REQUIRE(order[k] == std::int32_t(points.size()) - 1 - other[k]);
 }

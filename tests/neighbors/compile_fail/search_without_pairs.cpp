@@ -4,7 +4,7 @@
 #include <lacuna/neighbors/cell_grid.hpp>
 #include <lacuna/neighbors/verlet_list.hpp>
 
-/// Has all that a neighbour search needs, but for `pairs`.
+/// Has everything that a neighbour search needs except `pairs`.
 struct half_a_search {
     using real_type = double;
     static constexpr int dim = 2;
