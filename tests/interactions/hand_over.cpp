@@ -29,7 +29,7 @@ struct bench {
               return s;
           }()) {}
 
-    /// Moves the second disc by the given path in `steps` steps, and lets the forces of its end be evaluated.
+    /// Moves the second disc by (dx, dy) in `steps` steps. One more step evaluates the forces at its new position.
     void move(double dx, double dy, int steps) {
         run.set_velocity(1, {dx / (steps * 1e-3), dy / (steps * 1e-3)});
         for (int n = 0; n < steps; ++n) advance();
@@ -44,11 +44,11 @@ struct bench {
         auto const force = pair_force(run, 0, 1), n = arm / norm(arm);
         normal = dot(force, n);
         shear = dot(force, perpendicular(n));
-        // A spring's force changes by no more than stiffness times path; a change of kind may only lower it.
+        // A spring's force changes by at most stiffness times path; a change from bond to contact may only reduce it.
         if (run.steps() > 1) jump = std::max(jump, std::fabs(normal) - std::fabs(before) - norm(arm - last_arm));
         last_arm = arm;
     }
-    /// Forces of the last step on the first disc: normal positive in tension, shear along n turned by +90 degrees.
+    /// Forces of the last step on the first disc: normal positive in tension, shear along n rotated by +90 degrees.
     double normal = 0, shear = 0;
     double jump = -1; ///< largest growth of the normal force beyond stiffness times path
     lacuna::vec<double, 2> last_arm{};
@@ -100,13 +100,13 @@ TEST_CASE("after a shear failure the pair is a frictional contact at once", "[ha
     REQUIRE_THAT(std::fabs(e.shear_force), WithinRel(0.02, 1e-2));
     REQUIRE_THAT(e.normal_force, WithinRel(normal, 2e-2));
     REQUIRE_THAT(e.energy, WithinRel((0.02 * 0.02 + 0.01 * 0.01) / 2, 2e-2));
-    // Normal force kept, shear force clipped by Coulomb; small rotations of the normal are in both components.
+    // The normal force stays, Coulomb's limit clips the shear force; small rotations of the normal affect both.
     REQUIRE_THAT(b.normal, WithinRel(normal, 3e-2));
     REQUIRE_THAT(b.shear, WithinRel(friction * std::fabs(normal), 5e-2));
     REQUIRE(b.jump < 1e-12);
 }
 
-TEST_CASE("a bond that fails in shear under tension opens", "[hand-over]") {
+TEST_CASE("a pair whose bond fails in shear under tension separates", "[hand-over]") {
     bench b(1, true, never, 0.02, 0.5);
     b.move(0.01, 0, 100);
     b.move(0, 0.022, 220);
@@ -118,7 +118,7 @@ TEST_CASE("a bond that fails in shear under tension opens", "[hand-over]") {
     REQUIRE(b.jump < 1e-12);
 }
 
-TEST_CASE("beyond the compressive limit the force is capped, the bond stays and is shorter", "[hand-over]") {
+TEST_CASE("beyond the compressive limit the force is capped, and the bond remains and shortens", "[hand-over]") {
     bench b(1, true, 0.01, never, 0.5);
     b.move(-0.03, 0, 300);
     REQUIRE(b.events.empty());
@@ -136,8 +136,8 @@ TEST_CASE("beyond the compressive limit the force is capped, the bond stays and 
     REQUIRE(b.jump < 1e-12);
 }
 
-TEST_CASE("no force jumps up at any change of kind", "[hand-over]") {
-    // Bonds made in touch, at an overlap and at a gap; contacts of the initial packing within the tolerance.
+TEST_CASE("no force jumps up when a pair breaks, separates or touches again", "[hand-over]") {
+    // Bonds that are made at touching distance, with an overlap, and with a gap; initial contacts within the tolerance.
     for (double const distance : {1.0, 0.99, 1.01})
         for (bool const bonded : {true, false})
             for (double const shear : {0.002, never}) {
@@ -147,8 +147,8 @@ TEST_CASE("no force jumps up at any change of kind", "[hand-over]") {
                 REQUIRE_THAT(b.normal, WithinAbs(0, 1e-15)); // starts at zero force
                 b.move(-0.003, 0, 100);
                 REQUIRE_THAT(b.normal, WithinRel(-0.003, 1e-9));
-                b.move(0, 0.004, 100);  // shears, and breaks where it can
-                b.move(0.012, 0, 200);  // opens or breaks
+                b.move(0, 0.004, 100);  // shears, and breaks if its strength is finite
+                b.move(0.012, 0, 200);  // separates or breaks
                 b.move(0.03, 0, 200);
                 REQUIRE(b.normal == 0);
                 b.move(-0.06, 0, 400);
@@ -191,8 +191,8 @@ TEST_CASE("both limits in one step: the larger ratio wins", "[hand-over]") {
 }
 
 TEST_CASE("histories survive neighbour rebuilds bit by bit", "[hand-over]") {
-    // Four discs on a row, sliding and sticking; others fly about. A tiny skin seeks neighbours at nearly every step,
-    // a huge one never again.
+    // Four discs in a row, sliding and sticking; two others fly freely. A tiny skin causes a search in nearly every
+    // step, a huge one only in the first.
     auto const play = [](double skin) {
         auto p = springs<plane>(1, 0.8, 0.4, unit_density(2));
         p.interactions.skin = skin;

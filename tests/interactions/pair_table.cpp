@@ -33,7 +33,7 @@ store_2d discs(int count) {
     return {p, order, std::vector{1.0}, lacuna::mass_model::disc, 1};
 }
 
-/// What a contact remembers, as a number that tells it from all others.
+/// A history that identifies its contact by a number.
 contacts_2d::history mark(double value) { return {value, {value + 0.5}}; }
 
 contacts_2d::entry contact(std::int32_t i, std::int32_t j, double value, std::int32_t row = 0) {
@@ -47,8 +47,8 @@ std::vector<lacuna::neighbor_pair> candidates(Pairs const& pairs) {
     return list;
 }
 
-/// A table's pairs as they are found slot by slot; REQUIREs that a chunk's pairs stand in its first packs, and that
-/// nothing but padding is elsewhere.
+/// The pairs of a table, slot by slot. REQUIREs that a chunk's pairs fill its first packs, and that all other slots are
+/// padding.
 std::vector<contacts_2d::entry> content(contacts_2d const& table, std::size_t particles) {
     std::vector<contacts_2d::entry> list;
     std::size_t in_use = 0;
@@ -86,18 +86,19 @@ void require_same(std::vector<contacts_2d::entry> const& a, std::vector<contacts
 
 } // namespace
 
-TEST_CASE("pair_table: pairs come, stay and go within their chunk", "[interactions][pair_table]") {
+TEST_CASE("pair_table: pairs are added, stay and are removed within their chunk", "[interactions][pair_table]") {
     auto const store = discs(300); // chunks 0 to 127, 128 to 255, 256 to 299
     contacts_2d table;
     double next = 100;
     auto const make = [&](lacuna::neighbor_pair const& p) { return contact(p.i, p.j, next++); };
-    // Marks of new pairs are counted from the last of a chunk to the first.
+    // A merge makes the new pairs of a chunk from the last to the first, so that their marks count in this order.
     merge_contacts(candidates(std::vector<pair>{{0, 1}, {0, 3}, {5, 200}, {130, 131}}), bonds_2d(), {}, table, store, 1, make);
     require_same(content(table, 300), {contact(0, 1, 102), contact(0, 3, 101), contact(5, 200, 100), contact(130, 131, 103)});
     REQUIRE(table.chunks() == 3);
     std::vector<std::size_t> const begins{table.first_pack(0), table.first_pack(1), table.first_pack(2), table.packs()};
 
-    // The first goes, one comes before, one between and one behind; the second chunk is as it was; the third gets its first.
+    // First chunk: the first pair is removed, others are added before, between and behind. The second chunk does not
+    // change, the third gets its first pair.
     merge_contacts(candidates(std::vector<pair>{{0, 2}, {0, 3}, {4, 5}, {5, 200}, {5, 201}, {130, 131}, {298, 299}}), bonds_2d(), {},
                    table, store, 1, make);
     require_same(content(table, 300), {contact(0, 2, 106), contact(0, 3, 101), contact(4, 5, 105), contact(5, 200, 100),
@@ -106,7 +107,7 @@ TEST_CASE("pair_table: pairs come, stay and go within their chunk", "[interactio
     REQUIRE(table.find(0, 1) == -1);
     REQUIRE(table.find(298, 299) == std::int32_t(table.first_pack(2) * width));
 
-    // A bond takes its pair out of the contacts; where it broke, the contact has the history that it is given.
+    // A bond removes its pair from the contacts. After the bond has broken, the contact has the history that is passed.
     bonds_2d bonds;
     bonds.assign(std::vector<bonds_2d::entry>{{4, 5, 0, 0, {}}, {5, 200, 0, 1, {}}}, store);
     auto const all = candidates(std::vector<pair>{{0, 3}, {4, 5}, {5, 200}, {5, 201}, {130, 131}});
@@ -122,28 +123,29 @@ TEST_CASE("pair_table: pairs come, stay and go within their chunk", "[interactio
 
     merge_contacts({}, bonds_2d(), {}, table, store, 1, make);
     REQUIRE(content(table, 300).empty());
-    // All of that had room.
+    // No chunk had to grow.
     REQUIRE(begins == std::vector<std::size_t>{table.first_pack(0), table.first_pack(1), table.first_pack(2), table.packs()});
 }
 
-TEST_CASE("pair_table: a chunk that outgrows its packs makes room in all, and nothing is forgotten", "[interactions][pair_table]") {
+TEST_CASE("pair_table: a chunk that outgrows its packs gets more, and no history is lost", "[interactions][pair_table]") {
     auto const store = discs(300);
     contacts_2d table;
     auto const make = [](lacuna::neighbor_pair const& p) { return contact(p.i, p.j, 1000 * p.i + p.j); };
     std::vector<pair> wanted{{3, 4}, {130, 131}, {256, 257}};
     merge_contacts(candidates(wanted), bonds_2d(), {}, table, store, 1, make);
-    // One pack each, and one to spare.
+    // Each chunk has one pack and a spare one.
     for (int c = 0; c <= 3; ++c) REQUIRE(table.first_pack(c) == 2 * std::size_t(c));
 
-    auto const forget = [](lacuna::neighbor_pair const& p) { return contact(p.i, p.j, 1000 * p.i + p.j + 0.25); };
+    // Pairs that a merge makes instead of copying them differ by 0.25.
+    auto const make_new = [](lacuna::neighbor_pair const& p) { return contact(p.i, p.j, 1000 * p.i + p.j + 0.25); };
     wanted = {{3, 4}};
     for (int j = 131; wanted.size() < 1 + 2 * width; ++j) wanted.push_back({130, j});
     wanted.push_back({256, 257});
-    merge_contacts(candidates(wanted), bonds_2d(), {}, table, store, 1, forget);
-    REQUIRE(table.first_pack(2) == 4); // still two
+    merge_contacts(candidates(wanted), bonds_2d(), {}, table, store, 1, make_new);
+    REQUIRE(table.first_pack(2) == 4); // still two packs
     wanted.insert(wanted.end() - 1, {131, 255});
     wanted.insert(wanted.end(), {258, 270});
-    merge_contacts(candidates(wanted), bonds_2d(), {}, table, store, 1, forget);
+    merge_contacts(candidates(wanted), bonds_2d(), {}, table, store, 1, make_new);
     REQUIRE(table.end_pack(1) - table.first_pack(1) == 3);
     REQUIRE(table.first_pack(2) - table.first_pack(1) == 4);
     std::vector<contacts_2d::entry> expected;
@@ -154,13 +156,13 @@ TEST_CASE("pair_table: a chunk that outgrows its packs makes room in all, and no
     require_same(content(table, 300), expected);
 }
 
-TEST_CASE("pair_table: after many merges it holds what a map holds, with any number of threads", "[interactions][pair_table]") {
+TEST_CASE("pair_table: after many merges it agrees with a map, for any number of threads", "[interactions][pair_table]") {
     int const count = 128 * 5 + 17;
     auto const store = discs(count);
     std::mt19937 gen(42);
     auto const below = [&](int n) { return int(gen() % std::uint32_t(n)); };
     std::set<pair> near;
-    std::map<pair, double> known; // the reference: what every contact remembers
+    std::map<pair, double> known; // the reference: the history of every contact
     std::set<pair> bonded;
     for (int k = 0; k < 300; ++k) {
         int const i = below(count - 30);
@@ -169,7 +171,7 @@ TEST_CASE("pair_table: after many merges it holds what a map holds, with any num
     std::vector<contacts_2d> tables(3);
     int layouts = 0, in_place = 0;
     for (int round = 0; round < 60; ++round) {
-        // From few pairs to many and back; in some rounds and chunks none changes.
+        // At first most changes add pairs, later most remove them. In each round one chunk does not change.
         for (int k = 0; k < 200; ++k) {
             int const i = below(count - 30);
             if (i / 128 == round % 5) continue;
@@ -238,7 +240,7 @@ TEST_CASE("pair_table: after many merges it holds what a map holds, with any num
     REQUIRE(in_place > 30);
 }
 
-TEST_CASE("force_offsets: packs to spare change no place", "[interactions][pair_table]") {
+TEST_CASE("force_offsets: spare packs change no offset", "[interactions][pair_table]") {
     int const count = 128 * 40;
     auto const store = discs(count);
     std::mt19937 gen(7);
@@ -271,7 +273,7 @@ TEST_CASE("force_offsets: packs to spare change no place", "[interactions][pair_
         }
 }
 
-TEST_CASE("force_offsets: a force stays until it is summed up, whatever pairs reach", "[interactions][pair_table]") {
+TEST_CASE("force_offsets: a force stays until it is summed, however far pairs reach", "[interactions][pair_table]") {
     int const count = 128 * 60;
     auto const store = discs(count);
     std::mt19937 gen(11);
@@ -291,25 +293,25 @@ TEST_CASE("force_offsets: a force stays until it is summed up, whatever pairs re
             lacuna::chunk_spans spans;
             spans.build(table.chunks(), threads, std::size_t(count), table);
             REQUIRE(spans.count() == threads);
-            lacuna::force_offsets places;
-            places.build(table, std::size_t(count), spans, true);
-            // A long bond takes place for the chunks that it concerns, not for all.
-            REQUIRE(places.count() < (far ? 2 * table.packs() / 3 : table.packs() / 2));
+            lacuna::force_offsets offsets;
+            offsets.build(table, std::size_t(count), spans, true);
+            // A long pair takes up an offset for the chunks that it concerns, not for all.
+            REQUIRE(offsets.count() < (far ? 2 * table.packs() / 3 : table.packs() / 2));
             int waiting = 0;
             for (int c = 0; c < table.chunks(); ++c) waiting += spans.waits(c);
             REQUIRE(waiting <= 3 * (threads - 1) + 3 * far);
-            std::vector<std::ptrdiff_t> holds(places.count(), -1); // the pack whose force is there
+            std::vector<std::ptrdiff_t> stored(offsets.count(), -1); // the pack whose force is at each offset
             auto const sum_up = [&](int chunk) {
                 for (int c = 0; c <= chunk; ++c)
                     for (std::size_t p = table.first_pack(c); p < table.end_pack(c); ++p)
                         for (std::size_t s = p * width; s < (p + 1) * width; ++s)
                             if (!table.is_padding(s, std::size_t(count)) && (c == chunk || table.j(s) / 128 == chunk))
-                                REQUIRE(holds[places(c, p)] == std::ptrdiff_t(p));
+                                REQUIRE(stored[offsets(c, p)] == std::ptrdiff_t(p));
             };
-            // In whatever order spans run: the last one first.
+            // Spans may run in any order, here the last one first.
             for (int s = threads; s-- > 0;)
                 for (int c = spans.begin(s); c < spans.end(s); ++c) {
-                    for (std::size_t p = table.first_pack(c); p < table.end_pack(c); ++p) holds[places(c, p)] = std::ptrdiff_t(p);
+                    for (std::size_t p = table.first_pack(c); p < table.end_pack(c); ++p) stored[offsets(c, p)] = std::ptrdiff_t(p);
                     if (!spans.waits(c)) sum_up(c);
                 }
             for (int c = 0; c < table.chunks(); ++c)

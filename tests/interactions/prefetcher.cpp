@@ -10,7 +10,7 @@
 
 namespace {
 
-/// A pair table as prefetcher sees it: the second particles of each chunk's pairs.
+/// Stands in for a pair table: it has the second particles of each chunk's pairs.
 struct seconds {
     std::vector<std::vector<std::int32_t>> of_chunk;
 
@@ -34,7 +34,7 @@ struct seconds {
 
 TEST_CASE("prefetcher knows which particles a chunk is the first to read", "[interactions][prefetcher]") {
     std::size_t const many = 9000;
-    // Fillers are pairs of particles that are none.
+    // 9001 is a padding particle.
     seconds const bonds{{{3, 200}, {150, 9001}, {}, {700, 690}}};
     seconds const contacts{{{130}, {260, 90, 9001}, {10}, {8999}}};
     lacuna::prefetcher ahead;
@@ -44,19 +44,19 @@ TEST_CASE("prefetcher knows which particles a chunk is the first to read", "[int
     std::size_t const expected[][2] = {{0, 201}, {201, 261}, {261, 261}, {261, 9000}, {9000, 9000}, {9000, 9000}};
     for (int c = 0; c < 6; ++c) {
         CAPTURE(c);
-        auto const fresh = ahead.fresh(c);
-        CHECK(fresh[0] == expected[c][0]);
-        CHECK(fresh[1] == expected[c][1]);
+        auto const first_read = ahead.fresh(c);
+        CHECK(first_read[0] == expected[c][0]);
+        CHECK(first_read[1] == expected[c][1]);
     }
 }
 
-TEST_CASE("prefetcher asks for nothing of a few particles", "[interactions][prefetcher]") {
+TEST_CASE("prefetcher does nothing for few particles", "[interactions][prefetcher]") {
     lacuna::prefetcher ahead;
     ahead.build(1000, 1, seconds{{{1, 2, 999}}});
     CHECK_FALSE(ahead.pays());
 }
 
-TEST_CASE("prefetcher asks for every line of a stream within a chunk's packs", "[interactions][prefetcher]") {
+TEST_CASE("prefetcher requests every line of a stream within a chunk's packs", "[interactions][prefetcher]") {
     // 1000 bytes are 16 lines: 4 packs take 4 each, 5 packs 4 (3.2), 100 packs 1, no pack none.
     char const data = 0;
     CHECK(lacuna::prefetcher::stream(&data, 1000, 4).lines_per_pack == 4);

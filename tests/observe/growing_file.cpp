@@ -12,7 +12,7 @@
 #include "catch.hpp"
 #include "scratch_directory.hpp"
 
-TEST_CASE("a growing file is cut back to a mark and goes on", "[growing]") {
+TEST_CASE("a growing file is cut back to a mark and continues", "[growing]") {
     scratch_directory const dir;
     std::string const path = dir.file("log.csv");
     lacuna::growing_file log(path, "a,b\n");
@@ -31,7 +31,7 @@ TEST_CASE("a growing file is cut back to a mark and goes on", "[growing]") {
     again.add("5,6\n");
     again.flush();
     REQUIRE(bytes_of(path) == "a,b\n1,2\n5,6\n");
-    // The same text has the same mark, however it came together.
+    // The same text has the same mark, in whatever pieces it was added.
     lacuna::growing_file other(dir.file("other.csv"), "a,b\n");
     other.begin();
     other.add("1,2\n5,6\n");
@@ -42,7 +42,7 @@ TEST_CASE("a growing file is cut back to a mark and goes on", "[growing]") {
     REQUIRE_FALSE(std::filesystem::exists(path));
 }
 
-TEST_CASE("a growing file that is not the one of the mark is refused and left alone", "[growing]") {
+TEST_CASE("a growing file whose beginning does not fit the mark is refused and not changed", "[growing]") {
     scratch_directory const dir;
     std::string const path = dir.file("log.csv");
     lacuna::growing_file log(path, "head\n");
@@ -59,7 +59,7 @@ TEST_CASE("a growing file that is not the one of the mark is refused and left al
     REQUIRE_THROWS_WITH(lacuna::growing_file(path, "head\n").resume(mark), contains_text(path));
 }
 
-TEST_CASE("lines are written when thousands of bytes wait, all at once, and not more often", "[growing]") {
+TEST_CASE("lines are written together, when thousands of bytes wait", "[growing]") {
     scratch_directory const dir;
     std::string const path = dir.file("log");
     lacuna::growing_file log(path, "h\n");
@@ -74,12 +74,12 @@ TEST_CASE("lines are written when thousands of bytes wait, all at once, and not 
         before = size;
     }
     REQUIRE(writes > 10);
-    REQUIRE(writes < 200); // also where the machine is so slow that a second passes now and then
+    REQUIRE(writes < 200); // even if the machine is so slow that a second passes now and then
     log.flush();
     REQUIRE(std::filesystem::file_size(path) == 200002);
 }
 
-TEST_CASE("a disk that is full leaves whole lines and a reason", "[growing]") {
+TEST_CASE("a full disk leaves whole lines and an error message", "[growing]") {
     scratch_directory const dir;
     for (bool const closed : {false, true}) {
         std::string const path = dir.file(closed ? "log.pvd" : "log.csv"), foot = closed ? "</end>\n" : "";
@@ -110,7 +110,7 @@ TEST_CASE("a disk that is full leaves whole lines and a reason", "[growing]") {
     }
 }
 
-TEST_CASE("a collection is whole after each frame and is cut back to a time", "[growing][vtk]") {
+TEST_CASE("a collection is complete after each frame and can be cut back to a time", "[growing][vtk]") {
     scratch_directory const dir;
     std::string const path = dir.file("run.pvd"), head = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\">\n<Collection>\n";
     auto const entry = [](std::string const& time) { return "<DataSet timestep=\"" + time + "\" file=\"f-" + time + ".vtp\"/>\n"; };

@@ -21,7 +21,7 @@
 
 namespace {
 
-/// As much of a simulation as a frame asks for.
+/// The part of a simulation that a frame needs.
 struct one_disc {
     static constexpr int dim = 2;
     std::size_t size() const { return 1; }
@@ -36,7 +36,7 @@ struct one_disc {
     int material(std::size_t) const { return 0; }
 };
 
-/// What the library writes of numbers.
+/// Numbers in all formats that the library writes.
 std::string all_written() {
     std::string text = lacuna::lammps_dump_text(one_disc{}) + lacuna::to_text(1234567.25) + lacuna::formatted("%.3f", 1234.5) +
                        lacuna::rate_text(12.5e6);
@@ -55,8 +55,8 @@ struct comma : std::numpunct<char> {
     std::string do_grouping() const override { return "\3"; }
 };
 
-/// Whether printf writes a comma now: a German locale of the machine, or one made here for the test.
-bool speak_german() {
+/// Sets a locale with a decimal comma: one of the machine, or one that localedef makes for the test. False if it fails.
+bool set_decimal_comma() {
     for (char const* name : {"de_DE.UTF-8", "de_DE.utf8", "fr_FR.UTF-8", "nl_NL.UTF-8"})
         if (std::setlocale(LC_ALL, name) != nullptr) return true;
 #if defined(__unix__)
@@ -75,19 +75,19 @@ bool speak_german() {
     return false;
 }
 
-/// Back to the locales before, whatever happens.
-struct kept_locales {
-    std::locale was = std::locale();
-    ~kept_locales() {
+/// Restores the locales at the end of the test.
+struct saved_locales {
+    std::locale before = std::locale();
+    ~saved_locales() {
         std::setlocale(LC_ALL, "C");
-        std::locale::global(was);
+        std::locale::global(before);
     }
 };
 
 } // namespace
 
-TEST_CASE("numbers have the same bytes, and are read alike, whatever the program's locale is", "[text]") {
-    kept_locales const back;
+TEST_CASE("numbers are written and read alike, whatever the program's locale", "[text]") {
+    saved_locales const saved;
     std::string const plain = all_written();
     REQUIRE(plain.find("0.125") != std::string::npos);
 
@@ -95,8 +95,8 @@ TEST_CASE("numbers have the same bytes, and are read alike, whatever the program
     REQUIRE(all_written() == plain);
     REQUIRE(lacuna::number_of("1234.5").value() == 1234.5);
 
-    if (!speak_german()) {
-        WARN("no locale with a decimal comma here, and localedef makes none: C's locale was not tried");
+    if (!set_decimal_comma()) {
+        WARN("there is no locale with a decimal comma, and localedef makes none: C's locale was not tested");
         return;
     }
     char text[16];

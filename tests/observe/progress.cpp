@@ -19,7 +19,7 @@ struct hand_clock {
     static inline duration time{0};
 };
 
-/// A file in memory or on disk that forgets itself.
+/// A temporary file that is removed at the end.
 struct scratch_file {
     std::FILE* file = std::tmpfile();
     ~scratch_file() { std::fclose(file); }
@@ -46,7 +46,7 @@ TEST_CASE("clock and rate texts") {
     CHECK(lacuna::rate_text(12) == "12");
 }
 
-TEST_CASE("plain lines come now and then, with percent, rate and time left") {
+TEST_CASE("plain lines have percent, rate and time left, at intervals") {
     scratch_file out;
     lacuna::progress_options options;
     options.sink = out.file;
@@ -67,7 +67,7 @@ TEST_CASE("plain lines come now and then, with percent, rate and time left") {
     CHECK(out.text() == " 25 %  10 k particle-steps/s  left 30 s  broken 3\n");
 }
 
-TEST_CASE("a run whose end shows as it goes on") {
+TEST_CASE("a run whose length changes while it runs") {
     scratch_file out;
     lacuna::progress_options options;
     options.sink = out.file;
@@ -81,7 +81,7 @@ TEST_CASE("a run whose end shows as it goes on") {
     CHECK_THROWS_WITH(progress.expect(0), contains_text("steps of the whole run = 0"));
 }
 
-TEST_CASE("the closing line always comes, once") {
+TEST_CASE("the last line is always written, once") {
     scratch_file out;
     lacuna::progress_options options;
     options.sink = out.file;
@@ -93,7 +93,7 @@ TEST_CASE("the closing line always comes, once") {
     CHECK(out.text() == " 50 %  5 particle-steps/s  took 1 s  interrupted\n");
 }
 
-TEST_CASE("on a terminal one line is rewritten, and longer remains are covered") {
+TEST_CASE("on a terminal one line is rewritten, and blanks cover the rest of a longer one") {
     scratch_file out;
     lacuna::progress_options options;
     options.sink = out.file;
@@ -122,7 +122,7 @@ TEST_CASE("without a sink nothing is written, and bad options are refused") {
     lacuna::progress_options none;
     none.steps = 0;
     CHECK_THROWS_WITH(lacuna::progress_reporter<>(none), contains_text("progress_options.steps"));
-    lacuna::progress_options nobody;
-    nobody.particles = 0;
-    CHECK_THROWS_WITH(lacuna::progress_reporter<>(nobody), contains_text("progress_options.particles"));
+    lacuna::progress_options empty;
+    empty.particles = 0;
+    CHECK_THROWS_WITH(lacuna::progress_reporter<>(empty), contains_text("progress_options.particles"));
 }

@@ -34,7 +34,7 @@ std::string refusal(std::string const& path, earlier_results earlier = earlier_r
 }
 void write(std::string const& path, std::string const& text = "x") { std::ofstream(path, std::ios::binary) << text; }
 
-/// Runs work() in another process and returns its number once it has said that it is ready.
+/// Runs work() in another process. Returns the number of the process when work() is done.
 template <class Work>
 pid_t in_another_process(Work work) {
     int ready[2];
@@ -59,23 +59,23 @@ void end(pid_t child) {
 
 } // namespace
 
-TEST_CASE("a directory has one owner, which is named, and none once that is dead", "[directory]") {
+TEST_CASE("a directory has one owner, which is named, and none after that has ended", "[directory]") {
     scratch_directory const dir;
     pid_t const owner = in_another_process([&] { return open_directory(dir.path.string()); });
     for (auto const earlier : {earlier_results::refuse, earlier_results::replace, earlier_results::keep})
         CHECK_THAT(refusal(dir.path.string(), earlier), contains_text("output.directory = ") &&
                                                             contains_text("in use by process " + std::to_string(owner)));
-    // Killed it leaves the file, but not the lock.
+    // A killed owner leaves the file, but not the lock.
     end(owner);
     REQUIRE(std::filesystem::exists(dir.path / "lacuna.lock"));
     open_directory(dir.path.string());
     REQUIRE(dir.entries() == 0);
-    // Two in one process are two as well.
+    // Two owners in one process exclude each other, too.
     auto const first = open_directory(dir.path.string());
     REQUIRE_THAT(refusal(dir.path.string()), contains_text("in use by process " + std::to_string(getpid())));
 }
 
-TEST_CASE("of many that open a directory at the same instant one gets it", "[directory]") {
+TEST_CASE("if many processes open a directory at the same instant, one gets it", "[directory]") {
     scratch_directory const dir;
     for (int round = 0; round < 10; ++round) {
         std::string const path = dir.file("out") + std::to_string(round);
@@ -116,7 +116,7 @@ TEST_CASE("of many that open a directory at the same instant one gets it", "[dir
     }
 }
 
-TEST_CASE("an owner's line tells the dead and the later ones from those at work", "[directory]") {
+TEST_CASE("the lock file shows whether its owner still runs", "[directory]") {
     auto const self = lacuna::lock_owner::self();
     auto const read_back = lacuna::lock_owner::from(self.text());
     REQUIRE(read_back.process == getpid());
@@ -125,7 +125,7 @@ TEST_CASE("an owner's line tells the dead and the later ones from those at work"
     REQUIRE(self.may_run());
     auto later = self;
     if (!self.started.empty()) {
-        later.started = std::to_string(std::stoll(self.started) - 1); // of a process before ours
+        later.started = std::to_string(std::stoll(self.started) - 1); // an earlier process with our number
         REQUIRE_FALSE(later.may_run());
     }
     pid_t const child = fork();
@@ -141,7 +141,7 @@ TEST_CASE("an owner's line tells the dead and the later ones from those at work"
     REQUIRE_FALSE(lacuna::lock_owner::from("of a person\n").may_run());
 }
 
-TEST_CASE("results of an earlier run are refused, replaced or kept, files of others stay", "[directory]") {
+TEST_CASE("results of an earlier run are refused, replaced or kept, other files stay", "[directory]") {
     scratch_directory const dir;
     std::vector<std::string> const foreign{"frame-.vtp", "frame-1a.vtp", "frame-12.vtu", "xframe-12.vtp", "log-b", "summary.json.part.old",
                                            "notes.txt.part", "other.7-1.part"};
@@ -159,14 +159,14 @@ TEST_CASE("results of an earlier run are refused, replaced or kept, files of oth
             CHECK_FALSE(std::filesystem::exists(dir.file(result)));
         }
     }
-    // Under temporary names: of results they go, in all three ways of writing them.
+    // Temporary files of results are removed, whichever way they are named.
     for (char const* part : {"summary.json.part", "frame-7.vtp.part", "frame-7.vtp.4321-9.part"}) write(dir.file(part));
     open_directory(dir.path.string())->keep();
     CHECK(dir.entries() == foreign.size());
     for (auto const& name : foreign) CHECK(std::filesystem::exists(dir.file(name)));
 }
 
-TEST_CASE("directories that were made for nothing are taken back", "[directory]") {
+TEST_CASE("directories that were created for nothing are removed again", "[directory]") {
     scratch_directory const dir;
     open_directory(dir.file("a/b/c"));
     REQUIRE(dir.entries() == 0);
@@ -185,7 +185,7 @@ TEST_CASE("directories that were made for nothing are taken back", "[directory]"
     REQUIRE(std::filesystem::is_directory(dir.path / "a/b/c"));
 }
 
-TEST_CASE("two writers of one file do not meet, and what a killed one left is written over", "[directory]") {
+TEST_CASE("two writers of one file do not disturb each other, and the file of a killed one is overwritten", "[directory]") {
     scratch_directory const dir;
     std::string const path = dir.file("result");
     {
@@ -216,8 +216,8 @@ TEST_CASE("two writers of one file do not meet, and what a killed one left is wr
     REQUIRE(dir.entries() == 1);
 }
 
-TEST_CASE("a signal is a wish, a second one later ends the program", "[directory]") {
-    // 0: none more, 1: another at once, 2: another after the second in which they count as one
+TEST_CASE("a signal is a request, another one more than a second later ends the program", "[directory]") {
+    // 0: no more signals, 1: another at once, 2: another after more than a second
     for (int const more : {0, 1, 2}) {
         pid_t const child = fork();
         if (child == 0) {

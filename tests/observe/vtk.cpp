@@ -10,7 +10,7 @@
 
 namespace {
 
-/// Reads the array of that name back from the bytes of a file.
+/// Reads the array `name` from the bytes of a file.
 template <class T>
 std::vector<T> read_array(std::string const& text, std::string const& name) {
     auto const at = text.find("Name=\"" + name + "\"");
@@ -27,7 +27,7 @@ std::vector<T> read_array(std::string const& text, std::string const& name) {
 
 } // namespace
 
-TEST_CASE("a .vtp file gives back what was put in", "[vtk]") {
+TEST_CASE("a .vtp file has the numbers that were written", "[vtk]") {
     lacuna::vtk_surface s;
     s.kind = lacuna::vtk_surface::cells::lines;
     s.coordinates = {0, 0, 0, 1, 0.5, 0, 2, 0, -1};
@@ -49,7 +49,7 @@ TEST_CASE("a .vtp file gives back what was put in", "[vtk]") {
     REQUIRE_THROWS_WITH(lacuna::vtk_text(s), contains_text("vtk_surface.connectivity = 3"));
 }
 
-TEST_CASE("tetrahedra go into a .vtu file, four corners each", "[vtk]") {
+TEST_CASE("tetrahedra are written to a .vtu file, four corners each", "[vtk]") {
     lacuna::vtk_surface s;
     s.kind = lacuna::vtk_surface::cells::tetrahedra;
     s.coordinates = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
