@@ -15,8 +15,8 @@
 #include <lacuna/simulation/checkpoint.hpp>
 
 /// \file
-/// Runs a child process that writes a checkpoint after each step, kills it (SIGKILL) at 50 random instants, and each
-/// time resumes from the file that is left: the end must have the hash of the run that nobody killed.
+/// Runs a child process that writes a checkpoint after each step. Kills it (SIGKILL) at 50 random instants, and each
+/// time resumes from the file that it leaves. The final state must have the hash of an undisturbed run.
 
 namespace {
 
@@ -24,7 +24,7 @@ using model = lacuna::default_model<2>;
 using record = lacuna::crack_record<lacuna::break_event<2>>;
 constexpr long long steps = 400;
 
-/// A net of discs that is torn apart.
+/// A net of bonded discs that random velocities tear apart.
 lacuna::simulation<model> make() {
     lacuna::packing<double, 2> discs;
     for (int y = 0; y < 10; ++y)
@@ -43,7 +43,7 @@ lacuna::simulation<model> make() {
     return run;
 }
 
-/// What a run ends with: state and cracks.
+/// Hash of the final state and the number of cracks.
 std::uint64_t outcome(lacuna::simulation<model> const& run, record const& cracks) {
     return lacuna::state_hash(run) ^ (cracks.events().size() * 0x9e3779b97f4a7c15u);
 }
@@ -65,7 +65,7 @@ int check(std::string const& path) {
     whole.run(steps, all);
     std::uint64_t const expected = outcome(whole, all);
     if (all.events().size() < 10 || whole.pairs().neighbors().build_count() < 5)
-        throw std::runtime_error("the run breaks and rebuilds too little to prove anything");
+        throw std::runtime_error("too few bonds break, or too few lists are built, to prove anything");
 
     std::mt19937_64 random(20240229);
     double length = 0; // of an undisturbed child, s
@@ -87,7 +87,7 @@ int check(std::string const& path) {
             if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) throw std::runtime_error("the undisturbed run failed");
         }
         killed += WIFSIGNALED(status) ? 1 : 0;
-        // A child that was faster than the first one got away.
+        // The child ended before the signal: shorten the delays.
         if (n >= 0 && !WIFSIGNALED(status)) length *= 0.9;
 
         auto run = make();
@@ -98,12 +98,12 @@ int check(std::string const& path) {
         between += run.steps() < steps ? 1 : 0;
         if (run.steps() < steps) run.run(steps - run.steps(), cracks);
         if (outcome(run, cracks) != expected) {
-            std::printf("kill %d: resumed to another end\n", n);
+            std::printf("kill %d: the resumed run has another final state\n", n);
             return 1;
         }
     }
-    std::printf("%d children were killed, %d left a checkpoint of a step before the end, from %lld to %lld; all resumed to "
-                "the same end with %zu cracks\n",
+    std::printf("%d children were killed, %d left a checkpoint of a step before the end, from %lld to %lld; "
+                "all resumed runs have the same final state with %zu cracks\n",
                 killed, between, first, last, all.events().size());
     return between > 0 ? 0 : 1;
 }

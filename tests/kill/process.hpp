@@ -17,13 +17,13 @@
 #include <unistd.h>
 
 /// \file
-/// Programs that run beside a test and can be sent signals, and what they leave.
+/// Programs that run beside a test and receive signals from it, and the files that they leave.
 
 namespace process {
 
 namespace fs = std::filesystem;
 
-/// A program that runs in a directory; what it says goes to a file `said` beside the directory.
+/// A program that runs in a directory. Its output goes to the file DIRECTORY.said.
 class running {
 public:
     running(std::vector<std::string> const& words, fs::path const& directory) {
@@ -49,7 +49,7 @@ public:
     }
     pid_t id() const { return child_; }
     void send(int signal) const { kill(child_, signal); }
-    /// \return exit status, or minus the signal that ended it
+    /// Waits for its end. \return exit status, or minus the number of the signal that ended it
     int wait() {
         int status = 0;
         if (waitpid(child_, &status, 0) != child_) throw std::runtime_error("cannot wait");
@@ -65,7 +65,7 @@ inline std::string read_all(fs::path const& path) {
     std::ifstream in(path, std::ios::binary);
     return {std::istreambuf_iterator<char>(in), {}};
 }
-/// Every file below a directory by its name there, and its bytes.
+/// The bytes of every file below a directory, by its path relative to the directory.
 inline std::map<std::string, std::string> files_of(fs::path const& directory) {
     std::map<std::string, std::string> all;
     if (!fs::exists(directory)) return all;
@@ -73,7 +73,7 @@ inline std::map<std::string, std::string> files_of(fs::path const& directory) {
         if (entry.is_regular_file()) all[fs::relative(entry.path(), directory).string()] = read_all(entry.path());
     return all;
 }
-/// Names of what differs, for a message.
+/// Names of the files that differ, for a message.
 inline std::string difference(std::map<std::string, std::string> const& a, std::map<std::string, std::string> const& b) {
     std::string names;
     for (auto const& [name, bytes] : a)

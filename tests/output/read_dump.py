@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""read_dump.py FOLDER: what write_frames wrote as LAMMPS dump files, read by the format's own description."""
+"""read_dump.py FOLDER: reads the LAMMPS dump files of write_frames, following the format's documentation."""
 
 import json
 import math
@@ -21,8 +21,8 @@ def read(path):
     return items
 
 
-def angle_of(quaternion, vector):
-    """A vector turned by a quaternion x, y, z, w."""
+def rotated(quaternion, vector):
+    """The vector rotated by a quaternion x, y, z, w."""
     x, y, z, w = quaternion
     u, v = (x, y, z), vector
     cross = lambda a, b: (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
@@ -48,14 +48,14 @@ def check(folder, prefix, expected):
         assert [value[c] for c in ("x", "y", "z")] == three(particle["position"])
         assert [value[c] for c in ("vx", "vy", "vz")] == three(particle["velocity"])
         assert [value[c] for c in ("omegax", "omegay", "omegaz")] == three(particle["spin"])
-        turned = angle_of([value[c] for c in ("quati", "quatj", "quatk", "quatw")], (1.0, 0.0, 0.0))
+        axis_now = rotated([value[c] for c in ("quati", "quatj", "quatk", "quatw")], (1.0, 0.0, 0.0))
         own = particle["orientation"]
         if len(own) == 2:
             wanted = own + [0.0]
         else:
             w, x, y, z = own
             wanted = [1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)]
-        assert all(math.isclose(a, b, abs_tol=1e-14) for a, b in zip(turned, wanted)), (turned, wanted)
+        assert all(math.isclose(a, b, abs_tol=1e-14) for a, b in zip(axis_now, wanted)), (axis_now, wanted)
         for axis in range(3):
             low, high = map(float, frame["BOX BOUNDS"]["rows"][axis])
             assert low <= three(particle["position"])[axis] <= high
@@ -66,4 +66,4 @@ folder = sys.argv[1]
 with open(os.path.join(folder, "expected.json"), encoding="ascii") as file:
     expected = json.load(file)
 assert any(p["spin"][0] != 0 for p in expected["sheet"]["particles"])
-print(check(folder, "sheet", expected["sheet"]), check(folder, "space", expected["space"]), "particles as they were")
+print(check(folder, "sheet", expected["sheet"]), check(folder, "space", expected["space"]), "particles agree")

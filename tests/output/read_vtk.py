@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""read_vtk.py FOLDER: what write_frames wrote as VTK files, read by VTK itself."""
+"""read_vtk.py FOLDER: reads the VTK files of write_frames with VTK itself."""
 
 import json
 import os
@@ -104,4 +104,4 @@ for name in odd:
 solid = read(os.path.join(folder, "solid.vtu"), vtkXMLUnstructuredGridReader)
 assert solid.GetNumberOfCells() == 1 and solid.GetCellType(0) == 10 and corners(solid.GetCell(0)) == [0, 1, 2, 3]
 assert solid.GetCellData().GetArray("pressure").GetValue(0) == 7
-print("as they were; bytes:", sizes)
+print("all files agree; bytes:", sizes)

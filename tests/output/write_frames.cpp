@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// write_frames FOLDER: writes frames of two small runs, and beside them what the runs' own accessors say (expected.json).
-// read_vtk.py and read_dump.py read the frames back with programs that are not ours.
+// write_frames FOLDER: writes frames of two small runs, and the values of the runs' accessors (expected.json).
+// read_vtk.py and read_dump.py read the frames back with other programs.
 
 #include <cstdio>
 #include <string>
@@ -66,7 +66,7 @@ void fill(Simulation& sim) {
     });
 }
 
-/// A bonded sheet, 12 by 10, torn apart at its ends: some bonds break, pores open.
+/// A bonded sheet, 12 by 10, that is torn apart at its ends: some bonds break, pores open.
 nlohmann::json write_sheet(std::string const& folder) {
     auto const discs = lacuna::hexagonal_rows<double>(12, 10, 0.5, true);
     lacuna::simulation_parameters<wet> p;
@@ -113,7 +113,7 @@ nlohmann::json write_spheres(std::string const& folder) {
     return said;
 }
 
-/// Arrays of one block and of several, whole and not, and none at all; a tetrahedron.
+/// Arrays of no block, of one and of several blocks, full and partial ones; and a tetrahedron.
 void write_odd_sizes(std::string const& folder) {
     for (std::size_t const count : {std::size_t(0), std::size_t(1), lacuna::vtk_zlib::block / 8, lacuna::vtk_zlib::block / 4 + 1}) {
         lacuna::vtk_surface s;

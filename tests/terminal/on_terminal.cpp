@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// on_terminal there|there_alone SCRATCH PROGRAM WORDS...: runs a program on a pseudo terminal until it shows how far it is, stops
-// it, and looks at what came. With output that is no terminal the same program shows nothing, if there_alone. The words are those
-// of a run of hours, whose results go into `out`.
+// on_terminal there|there_alone SCRATCH PROGRAM WORDS...: runs a program on a pseudo terminal until it shows its
+// progress, stops it, and checks its output. With `there_alone` it also checks that the program shows no progress when
+// its output is not a terminal. The words start a run of hours, with results in `out`.
 
 #include <algorithm>
 #include <chrono>
@@ -49,7 +49,7 @@ public:
         }
         close(terminal_);
     }
-    /// Reads more of what it says. \return false: it has ended
+    /// Reads more of its output. \return false if it has ended
     bool read_on() {
         char buffer[4096];
         auto const got = read(terminal_, buffer, sizeof buffer);
@@ -71,7 +71,7 @@ private:
     std::string text_;
 };
 
-/// Whether a text holds what is rewritten in place, as "\r[==>  ]  12 %  3.4 M particle-steps/s  left 5 s".
+/// True if a text has a line that is rewritten in place, such as "\r[==>  ]  12 %  3.4 M particle-steps/s  left 5 s".
 bool shows_progress(std::string const& all) {
     for (auto at = all.find("\r["); at != all.npos; at = all.find("\r[", at + 1)) {
         auto end = at + 2;
@@ -81,9 +81,9 @@ bool shows_progress(std::string const& all) {
             return end > from;
         };
         auto const take = [&](std::string const& word) {
-            bool const there = all.compare(end, word.size(), word) == 0;
-            end += there ? word.size() : 0;
-            return there;
+            bool const found = all.compare(end, word.size(), word) == 0;
+            end += found ? word.size() : 0;
+            return found;
         };
         skip("=> ");
         if (!take("]") || !skip(" ") || !skip("0123456789") || !take(" %  ") || !skip("0123456789.e+")) continue;
@@ -94,7 +94,7 @@ bool shows_progress(std::string const& all) {
     return false;
 }
 
-/// Whether a text stands at the beginning of a line, in which nothing was rewritten.
+/// True if `text` is at the beginning of a line in which nothing was rewritten.
 bool begins_line(std::string const& all, std::string const& text) {
     auto const at = all.find(text);
     return at != all.npos && (at == 0 || all[at - 1] == '\n');
@@ -113,12 +113,12 @@ void check_stopped(std::vector<std::string> const& words, path const& folder) {
     require(status == 128 + SIGTERM, "exit status " + std::to_string(status) + ":\n" + program.text());
     auto const said = path(words[0]).filename().string() + ": ";
     require(program.text().find(said) == program.text().npos || begins_line(program.text(), said),
-            "what it says at its end is not on a line of its own:\n" + program.text());
+            "its last message does not begin a line:\n" + program.text());
     auto const last = program.text().find_last_of("\r\n");
     require(last + 1 == program.text().size(), "the last line has no end:\n" + program.text());
 }
 
-/// No terminal: the same for as long, as far as that can be said.
+/// The output is not a terminal: lets the program run for some time, which must show no progress.
 void check_silent(std::vector<std::string> const& words, path const& folder) {
     process::running program(words, folder);
     while (!process::fs::exists(folder / "out") || process::fs::is_empty(folder / "out")) usleep(1000);
@@ -127,7 +127,7 @@ void check_silent(std::vector<std::string> const& words, path const& folder) {
     int const status = program.wait();
     require(status == 128 + SIGTERM || status == 0, "exit status " + std::to_string(status));
     auto const said = process::read_all(folder.string() + ".said");
-    require(said.find('\r') == said.npos && said.find(" left ") == said.npos, "it shows progress in a file:\n" + said);
+    require(said.find('\r') == said.npos && said.find(" left ") == said.npos, "it shows progress although its output is not a terminal:\n" + said);
 }
 
 } // namespace
