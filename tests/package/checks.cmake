@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# What both consumers ask of the targets that they were given.
+# Checks of the targets that a consumer gets.
 
-# every_header(folder): writes every_header.hpp, which includes all headers below the folder.
+# every_header(<folder>): writes every_header.hpp, which includes all headers below the folder.
 function(every_header folder)
   file(GLOB_RECURSE headers RELATIVE "${folder}" "${folder}/lacuna/*.hpp")
   list(LENGTH headers count)
@@ -27,13 +27,13 @@ foreach(name IN ITEMS lacuna all ${EXPECTED_COMPONENTS})
     message(FATAL_ERROR "lacuna::${name} forces compiler options on its user: ${options}")
   endif()
 endforeach()
-# A consumer may have all warnings on, and as errors.
+# A consumer may turn on all warnings, and treat them as errors.
 if(CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
   add_compile_options(-Wall -Wextra -Wconversion -Wsign-conversion -Werror)
 endif()
 string(REPLACE "," ";" OTHER_COMPONENTS "${OTHER_COMPONENTS}")
 foreach(name IN LISTS OTHER_COMPONENTS)
   if(TARGET lacuna::${name})
-    message(FATAL_ERROR "there is a target lacuna::${name}, which was left out")
+    message(FATAL_ERROR "there is a target lacuna::${name}, although this component is off")
   endif()
 endforeach()

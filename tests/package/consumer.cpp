@@ -7,7 +7,7 @@
 #include <lacuna/packings/hexagonal.hpp>
 #include <lacuna/simulation.hpp>
 
-// Every header that the consumer sees, so that one missing from the installed set is missed here.
+// Includes every installed header: one that includes a header missing from the installation fails here.
 #include "every_header.hpp"
 
 struct model : lacuna::default_model<2> {};

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# The consumer whose project Lacuna is a part of, from the folder LACUNA_DIR: no test, no example comes with it.
+# A consumer that has Lacuna, in the folder LACUNA_DIR, as a part of its project: without tests and examples.
 
 include("${CMAKE_CURRENT_LIST_DIR}/checks.cmake")
 foreach(target IN ITEMS test_core lacuna_test_main cartilage)
@@ -14,9 +14,9 @@ if(tests)
 endif()
 get_target_property(system lacuna SYSTEM)
 if(NOT system)
-  message(FATAL_ERROR "another project gets our headers as its own: their warnings would be its warnings")
+  message(FATAL_ERROR "another project gets our headers not as system headers: it would see their warnings")
 endif()
-# The rules are written at the end of the configuration: run.cmake looks at them.
+# CMake writes the install rules at the end of the configuration: run.cmake checks them.
 file(WRITE "${CMAKE_CURRENT_BINARY_DIR}/every_header.hpp" "")
 
 add_executable(consumer "${CMAKE_CURRENT_LIST_DIR}/consumer.cpp")

@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# Brings Lacuna to a consumer by WAY, then configures, builds and runs it. EXTENT=core: without optional components.
+# Provides Lacuna to a consumer by WAY, then configures, builds and runs the consumer. EXTENT=core: without optional
+# components.
 
 cmake_minimum_required(VERSION 3.25)
 
-# run(command...): sets `said`, its output.
+# run(<command>...): stops on failure; sets `said` to the command's output.
 macro(run)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE said ERROR_VARIABLE said)
   message("${said}")
@@ -40,7 +41,7 @@ set(prefix "${SCRATCH}/prefix")
 set(clone "")
 set(commit "")
 
-# cpack and install want all programs of a build first: this one has none.
+# cpack and install first build all programs of a build folder: this folder has none.
 if(WAY STREQUAL "debian" OR (WAY STREQUAL "find_package" AND EXTENT STREQUAL "core"))
   run("${CMAKE_COMMAND}" ${tools} -S "${SOURCE}" -B "${SCRATCH}/lacuna" ${choices} -D LACUNA_BUILD_TESTS=OFF
     -D LACUNA_BUILD_EXAMPLES=OFF -D LACUNA_BUILD_BENCH=OFF)
@@ -62,7 +63,7 @@ elseif(WAY STREQUAL "debian")
   set(prefix "${SCRATCH}/root/usr")
   set(project "${CMAKE_CURRENT_LIST_DIR}/find_package")
 endif()
-# All headers take a while to read: where they come from an installed tree, once with and once without components.
+# Compiling all headers takes a while: only with an installed tree, once with and once without components.
 set(every_header OFF)
 if(WAY STREQUAL "find_package")
   set(every_header ON)
@@ -77,19 +78,19 @@ if(WAY STREQUAL "add_subdirectory" OR WAY STREQUAL "fetch_content")
   foreach(file IN LISTS rules)
     file(STRINGS "${file}" installs REGEX "^ *file\\(INSTALL")
     if(installs)
-      message(FATAL_ERROR "another project installs files of ours: ${file}: ${installs}")
+      message(FATAL_ERROR "another project installs our files: ${file}: ${installs}")
     endif()
   endforeach()
 endif()
 run("${CMAKE_COMMAND}" --build "${SCRATCH}/build")
 run("${SCRATCH}/build/consumer")
-# The consumer prints what version.hpp says.
+# The consumer prints the version of version.hpp.
 expect("version.hpp" "${said}" "lacuna ${VERSION}")
 if(NOT WAY STREQUAL "debian")
   return()
 endif()
 
-# pkg-config and the bare compiler, on the program of the README, which says what it prints.
+# The program of the README, with pkg-config and the compiler alone, must print the text in the README.
 set(ENV{PKG_CONFIG_PATH} "${prefix}/share/pkgconfig")
 run("${PKG_CONFIG}" --modversion lacuna)
 expect("the version of lacuna.pc" "${said}" "${VERSION}")
@@ -100,7 +101,7 @@ endforeach()
 file(READ "${SOURCE}/README.md" readme)
 string(REGEX MATCH "```cpp\n(#include[^`]*)```\n\nIt prints `([^`]*)`" found "${readme}")
 if(NOT found)
-  message(FATAL_ERROR "README.md has no program, or does not say what it prints")
+  message(FATAL_ERROR "README.md has no program, or not the text that it prints")
 endif()
 set(prints "${CMAKE_MATCH_2}")
 file(WRITE "${SCRATCH}/program.cpp" "${CMAKE_MATCH_1}")

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# SOURCE must not compile, and the compiler must say what its line "// refused: <text>" announces; with -DLACUNA_GOOD
-# it must compile, so that the refusal has no other reason. What the compiler says is to be short enough to be read.
-# A file with lines "// refused with <MACRO>: <text>" must compile as it is, and be refused so with each macro defined.
+# SOURCE must not compile, and the compiler's message must contain the text of its line "// refused: <text>". With
+# -DLACUNA_GOOD it must compile, so that the refusal has no other reason. The message must have fewer than 20 lines. A
+# file with lines "// refused with <MACRO>: <text>" must compile as it is, and be refused with that text when the macro
+# is defined.
 
 cmake_minimum_required(VERSION 3.25)
 

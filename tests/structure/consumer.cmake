@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# What a consumer's compiler says of the headers: HEADERS (relative to INCLUDE), of which COMPLETE says whether they are all
-# of the library's. CHECK=warnings: no warning with all of them on, in the language STANDARD. CHECK=older: one line says
-# which language is needed. CHECK=pragmas: a warning that a header needs off for itself is on again behind it.
-# CHECK=macros: no macro stays but ours and those of the libraries that a consumer includes anyway.
+# Compiles HEADERS (relative to INCLUDE) as a consumer does. COMPLETE: these are all headers of the library.
+#   CHECK=warnings: there is no warning with all warnings on, in the language STANDARD.
+#   CHECK=older: an older language is refused by one line that names the language that is needed.
+#   CHECK=pragmas: a warning that a header turns off for itself is on again after it.
+#   CHECK=macros: the headers define no macros except ours and those of the libraries that a consumer includes anyway.
 
 cmake_minimum_required(VERSION 3.25)
 
@@ -24,7 +25,7 @@ foreach(folder IN LISTS SYSTEM_DIRS)
   endif()
 endforeach()
 
-# compile(out_result out_text arguments...): what the compiler says.
+# compile(<result> <text> arguments...): sets the compiler's exit status and its output.
 function(compile result text)
   execute_process(COMMAND "${COMPILER}" ${folders} ${ARGN} RESULT_VARIABLE found ERROR_VARIABLE said OUTPUT_VARIABLE out)
   set(${result} "${found}" PARENT_SCOPE)
@@ -48,7 +49,8 @@ elseif(CHECK STREQUAL "older")
     endif()
   endforeach()
 elseif(CHECK STREQUAL "pragmas")
-  # Both lines have something to warn of: without AVX-512 a function that returns 64 bytes in a register.
+  # The program has a function that returns 64 bytes in a register, which warns without AVX-512, and an uninitialized
+  # variable.
   file(WRITE "${SCRATCH}/pragmas.cpp" "#include \"every_header.hpp\"
 typedef double eight __attribute__((vector_size(64)));
 eight twice(eight x) { return x + x; }
@@ -90,11 +92,11 @@ ${libraries_of_components}
     string(REGEX MATCHALL "#define [A-Za-z][A-Za-z0-9_]*" ${which} "${said}")
   endforeach()
   list(REMOVE_ITEM ours ${libraries})
-  # Qhull's own include guards stay, or its headers could be read twice.
+  # Qhull's include guards must stay, else its headers could be read twice.
   list(FILTER ours EXCLUDE REGEX "#define (LACUNA_|CONSUMER_|CEREAL_|qhDEF)")
   if(ours)
     list(JOIN ours "\n  " report)
-    message(FATAL_ERROR "macros that stay behind the headers:\n  ${report}")
+    message(FATAL_ERROR "the headers leave macros:\n  ${report}")
   endif()
 else()
   message(FATAL_ERROR "CHECK=${CHECK} is unknown")

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// A consumer with all warnings on: every header that is there (every_header.hpp), and simulations of several models.
+// A consumer with all warnings on: it includes all usable headers (every_header.hpp) and simulates several models.
 
 #include "every_header.hpp"
 
@@ -23,9 +23,9 @@ struct rolling : lacuna::default_model<Dim, Real> {
 
 template <class Model>
 void use() {
-    lacuna::packing<typename Model::real, Model::dim> body;
+    lacuna::packing<typename Model::real, Model::dim> packing;
     lacuna::simulation_parameters<Model> p;
-    lacuna::simulation<Model> sim(body, p);
+    lacuna::simulation<Model> sim(packing, p);
     if constexpr (lacuna::has_fluid<Model>)
         sim.fill_pores([](auto points, auto const* radii) {
             return lacuna::make_pore_network(lacuna::triangulate_body(points, radii), points, radii);

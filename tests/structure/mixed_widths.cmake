@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# Two objects that share a simulation: compiled for the same registers they can be linked with each other; compiled for others,
-# they cannot, and the linker names the widths.
+# Two objects that share a simulation. Compiled for the same registers, they link. Compiled for different ones, they do
+# not, and the linker names the widths.
 
 cmake_minimum_required(VERSION 3.25)
 
@@ -36,7 +36,7 @@ if(failed)
 endif()
 link(failed said defines_16.o uses_32.o)
 if(NOT failed)
-  message(FATAL_ERROR "objects for other registers link, and should not")
+  message(FATAL_ERROR "objects for different registers link, but should not")
 endif()
 if(NOT said MATCHES "count\\(lacuna::packs_of_32_bytes::simulation<own_model> const&\\)")
   message(FATAL_ERROR "the linker does not name the width:\n${said}")

@@ -4,7 +4,7 @@
 
 cmake_minimum_required(VERSION 3.25)
 
-# Which rooms a room may include; every room may include itself.
+# The rooms that a room may include besides itself.
 set(ROOMS core particles packings neighbors laws interactions pores loads motion observe draw)
 set(core_MAY "")
 set(particles_MAY core)
@@ -18,7 +18,7 @@ set(motion_MAY core particles)
 set(observe_MAY core)
 set(draw_MAY core)
 
-# Folders of a room, from the ground up: which folders of the room one of them may include besides itself.
+# Folders of a room, in their order, and the folders of the room that each may include besides itself.
 set(FOLDERS interactions/storage pores/mesh pores/network pores/flow pores/remesh)
 set(interactions/storage_MAY "")
 set(pores/mesh_MAY "")
@@ -46,11 +46,11 @@ set(programs_HEADERS "^(CLI|toml\\+\\+|nlohmann|catch2|benchmark)/")
 set(programs_ROOMS "")
 
 set(FORBIDDEN_STANDARD "^(iostream|ranges|functional|regex)$")
-# What reads and writes numbers as the program's locale says: files are read and written by core/text.hpp. Programs may
-# print tables for persons.
+# Functions that read or write numbers by the program's locale. core/text.hpp reads and writes numbers in files; programs
+# may print tables for people.
 set(OF_LOCALES "(strto(f|d|ld)|sto(f|d|ld)|atof|setlocale|localeconv|imbue|setprecision)[ ]*\\(|stringstream|[^f]printf\\([^;]*%[-+ #0-9.*]*L?[aefgAEFG]")
 
-# Exceptions: "<header> -> <what it may include>" or "<header> numbers", each with its reason above it.
+# Exceptions: "<header> -> <included header>" or "<header> numbers", each with its reason above it.
 set(EXCEPTIONS
 )
 
@@ -73,7 +73,7 @@ foreach(header IN LISTS headers)
   if(header MATCHES "^([^/]+)/")
     set(room "${CMAKE_MATCH_1}")
     if(room STREQUAL "simulation")
-      # The parts of simulation.hpp, the one place that knows all rooms; no room may include it.
+      # The parts of simulation.hpp, which may include all rooms; no room may include them.
       set(room "")
     elseif(NOT room IN_LIST ROOMS)
       list(APPEND problems "${header}: there is no room ${room}/")
@@ -150,20 +150,20 @@ endforeach()
 file(GLOB_RECURSE programs RELATIVE "${ROOT}" "${ROOT}/examples/*.cpp" "${ROOT}/examples/*.hpp")
 foreach(program IN LISTS programs)
   file(READ "${ROOT}/${program}" text)
-  # printf alone goes to the terminal.
+  # Plain printf writes to the terminal.
   string(REGEX REPLACE "std::printf\\(" "std::puts(" text "${text}")
   if(text MATCHES "${OF_LOCALES}")
     problem("${program} numbers" "${program}: '${CMAKE_MATCH_0}' goes by the locale, core/text.hpp reads and writes numbers")
   endif()
 endforeach()
 
-# Rounds: a header has settled when all that it includes have; what never settles is a ring.
+# In rounds: a header is settled when all headers that it includes are. Headers that never settle form a ring.
 set(settled "")
-set(open ${headers})
-while(open)
+set(unsettled ${headers})
+while(unsettled)
   set(next "")
   set(now "")
-  foreach(header IN LISTS open)
+  foreach(header IN LISTS unsettled)
     set(waits FALSE)
     foreach(inner IN LISTS inner_${header})
       if(inner IN_LIST headers AND NOT inner IN_LIST settled)
@@ -178,12 +178,12 @@ while(open)
     endif()
   endforeach()
   list(APPEND settled ${now})
-  if(next STREQUAL open)
+  if(next STREQUAL unsettled)
     list(JOIN next ", " ring)
     list(APPEND problems "a ring of includes among or below: ${ring}")
     break()
   endif()
-  set(open ${next})
+  set(unsettled ${next})
 endwhile()
 
 list(LENGTH headers count)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# Writes small trees that each break one rule of rooms.cmake, and asks that it says so; and one that breaks none.
+# Writes small trees that each break one rule of rooms.cmake, which must report it, and trees that break none.
 
 cmake_minimum_required(VERSION 3.25)
 
@@ -24,7 +24,7 @@ function(expect root wanted)
   if(found EQUAL -1)
     set(failures "${failures}\nexpected '${wanted}', got: ${said}" PARENT_SCOPE)
   elseif(result EQUAL 0 AND NOT wanted MATCHES "keep the rules")
-    set(failures "${failures}\n'${wanted}' was said, but did not fail" PARENT_SCOPE)
+    set(failures "${failures}\nit reported '${wanted}', but did not fail" PARENT_SCOPE)
   endif()
 endfunction()
 

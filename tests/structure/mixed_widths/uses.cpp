@@ -2,6 +2,6 @@
 #include "own_model.hpp"
 
 int main(int argc, char**) {
-    lacuna::simulation<own_model> const* none = nullptr; // it is to link, not to run
+    lacuna::simulation<own_model> const* none = nullptr; // the program has to link, not to run
     return argc > 1 ? int(count(*none)) : 0;
 }
