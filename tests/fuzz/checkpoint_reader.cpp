@@ -20,10 +20,10 @@
 #include "fuzz/corpus.hpp"
 
 /// \file
-/// The reader of checkpoints, for a wet model of the plane and one of space in single precision: any bytes as a file, and
-/// any bytes as the state, or as what was given, in a sound envelope. They are refused, or make a simulation that can be
-/// stepped; refused, they change nothing. What is read and written again has the same bytes, and a run on from there is the
-/// same twice.
+/// The reader of checkpoints, for a wet model in the plane and one in space in single precision. The input is any bytes
+/// as a file, or any bytes as the state, or as the constant input, in an otherwise sound checkpoint. Either they are
+/// refused and change nothing, or the simulation can make steps. A state that is read and written again has the same
+/// bytes, and two simulations that continue from it agree.
 
 extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t most);
 
@@ -33,7 +33,7 @@ struct wet_plane : lacuna::default_model<2> {
     using damping = lacuna::viscous_damping;
     using flow = lacuna::explicit_flow;
 };
-struct body_of_floats : lacuna::default_model<3, float> {
+struct space_of_floats : lacuna::default_model<3, float> {
     using contact_law = lacuna::hertz_mindlin;
     using bond_law = lacuna::parallel_bond;
     using damping = lacuna::combined_damping;
@@ -63,13 +63,13 @@ lacuna::simulation<wet_plane> make(wet_plane) {
     return run;
 }
 
-lacuna::simulation<body_of_floats> make(body_of_floats) {
+lacuna::simulation<space_of_floats> make(space_of_floats) {
     lacuna::packing<float, 3> spheres;
     for (int k = 0; k < 8; ++k) {
         spheres.add({0.98f * float(k % 2), 0.99f * float(k / 2 % 2), 0.97f * float(k / 4)}, k == 7 ? 0.45f : 0.5f);
         if (k % 2 == 1) spheres.bonds.push_back({k - 1, k});
     }
-    lacuna::simulation_parameters<body_of_floats> p;
+    lacuna::simulation_parameters<space_of_floats> p;
     p.materials[0].density = 1000;
     p.materials[0].contact = {1e5, 0.25, 0.5, 1};
     p.materials[0].bond.normal_stiffness = p.materials[0].bond.shear_stiffness = 1e3;
@@ -77,7 +77,7 @@ lacuna::simulation<body_of_floats> make(body_of_floats) {
     p.damping = {0.05, 0.1, 0.1};
     p.gravity = {0, 0, -1};
     p.walls = {{{0, 0, -0.49}, {0, 0, 1}, p.materials[0].contact}};
-    lacuna::simulation<body_of_floats> run(spheres, p);
+    lacuna::simulation<space_of_floats> run(spheres, p);
     run.apply(3, {1, 1, 0}, {0, 0, 0.1}, 10);
     run.prescribe_velocity(5, {0.5, 0, 0.2}, 1);
     run.move_wall(0, {0, 0, 0.01}, 0.5);
@@ -90,17 +90,17 @@ template <class Model>
 class reader {
     using simulation = lacuna::simulation<Model>;
     using record = lacuna::crack_record<lacuna::break_event<Model::dim>>;
-    simulation const fresh_ = make(Model{});
-    std::uint64_t const before_ = lacuna::state_hash(fresh_);
+    simulation const initial_ = make(Model{});
+    std::uint64_t const before_ = lacuna::state_hash(initial_);
     lacuna::checkpoint_content const begun_ = sound(0);
 
     lacuna::checkpoint_content sound(long long steps) const {
-        auto run = fresh_;
+        auto run = initial_;
         record cracks;
         run.run(steps, cracks);
         return lacuna::checkpoint_of(run, cracks);
     }
-    /// Some steps; the hash of what they come to, 0 for an end on the way.
+    /// Makes some steps. Returns the hash of the state after them, 0 if the simulation stops before.
     static std::uint64_t go_on(simulation& run) {
         try {
             for (int n = 0; n < 3; ++n) run.step_with_energy();
@@ -125,7 +125,7 @@ public:
     }
 
     void try_one(int kind, std::string_view bytes) const {
-        simulation run = fresh_;
+        simulation run = initial_;
         record cracks;
         lacuna::checkpoint_content content = begun_;
         try {
@@ -134,21 +134,22 @@ public:
             if (kind == 2) content.given = bytes;
             lacuna::resume_from(content, "bytes", run, cracks);
         } catch (lacuna::checkpoint_error const& bad) {
-            fuzz::expect(lacuna::state_hash(run) == before_, "a file that is refused changes nothing");
-            fuzz::expect(std::string_view(bad.what()).find('\n') == std::string_view::npos, "why is said in one line");
+            fuzz::expect(lacuna::state_hash(run) == before_, "a refused file changes nothing");
+            fuzz::expect(std::string_view(bad.what()).find('\n') == std::string_view::npos, "a refusal has one line");
             return;
         }
-        if (run.steps() == 0) { // what was given is then told from the state, which a bad file lets differ from it
+        // At step 0 the constant input follows from the state, which a bad file may contradict.
+        if (run.steps() == 0) {
             go_on(run);
             return;
         }
         auto const again = lacuna::checkpoint_of(run, cracks);
-        simulation other = fresh_;
+        simulation other = initial_;
         record others;
         lacuna::resume_from(again, "written again", other, others);
         auto const twice = lacuna::checkpoint_of(other, others);
-        fuzz::expect(twice.state == again.state && twice.given == again.given, "what is read is written as it was");
-        fuzz::expect(go_on(run) == go_on(other), "a run goes on as the one that it was read from");
+        fuzz::expect(twice.state == again.state && twice.given == again.given, "a state that is read is written with the same bytes");
+        fuzz::expect(go_on(run) == go_on(other), "a simulation and its copy continue alike");
     }
 };
 
@@ -162,11 +163,11 @@ reader<Model> const& reader_of() {
 
 extern "C" int LLVMFuzzerInitialize(int* argc, char*** argv) {
     reader_of<wet_plane>().write_seeds(*argc, *argv, "plane_", '0');
-    reader_of<body_of_floats>().write_seeds(*argc, *argv, "space_", '4');
+    reader_of<space_of_floats>().write_seeds(*argc, *argv, "space_", '4');
     return 0;
 }
 
-/// Half of the changes are those of a number: what a damaged file rarely has by chance.
+/// Half of the mutations replace a number, which random changes of bytes rarely do.
 extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t most, unsigned seed) {
     std::minstd_rand random(seed);
     if (size < 10 || random() % 2 == 0) return LLVMFuzzerMutate(data, size, most);
@@ -177,7 +178,7 @@ extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t s
     for (unsigned k = 1 + unsigned(random() % 3); k > 0; --k) {
         auto const put = [&](auto const& list) {
             auto const value = list[random() % std::size(list)];
-            // The state is rows of eight bytes and of four, after a byte that says what it is.
+            // After the byte for the kind, the state consists of numbers of eight and of four bytes.
             std::size_t const at = 1 + random() % ((size - 1 - sizeof value) / 4 + 1) * 4;
             std::memcpy(data + at, &value, sizeof value);
         };
@@ -190,13 +191,13 @@ extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t s
     return size;
 }
 
-/// The first byte: model, and what the others are.
+/// The first byte chooses the model and the kind of the other bytes.
 extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size) {
     if (size == 0) return 0;
     std::string_view const bytes(reinterpret_cast<char const*>(data + 1), size - 1);
     int const kind = data[0] % 4 % 3;
     if (data[0] & 4)
-        reader_of<body_of_floats>().try_one(kind, bytes);
+        reader_of<space_of_floats>().try_one(kind, bytes);
     else
         reader_of<wet_plane>().try_one(kind, bytes);
     return 0;

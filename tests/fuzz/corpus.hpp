@@ -8,12 +8,11 @@
 #include <string>
 
 /// \file
-/// What the fuzz targets share: a seed corpus that each target writes itself into the folder it is given, and numbers
-/// from bytes.
+/// Shared by the fuzz targets: writing seeds into the corpus folder, and checks of promises.
 
 namespace fuzz {
 
-/// Writes a seed into the corpus that grows: the first folder of the command line. Others are read only.
+/// Writes a seed into the growing corpus, the first folder of the command line. libFuzzer only reads other folders.
 inline void write_seed(int argc, char** argv, std::string const& name, std::string const& bytes) {
     for (int k = 1; k < argc; ++k) {
         if (argv[k][0] == '-') continue;
@@ -22,7 +21,7 @@ inline void write_seed(int argc, char** argv, std::string const& name, std::stri
     }
 }
 
-/// Stops the run of the fuzzer when a promise is broken.
+/// Stops the fuzzer if a promise is broken.
 inline void expect(bool holds, char const* promise = "") {
     if (holds) return;
     std::fprintf(stderr, "broken promise: %s\n", promise);

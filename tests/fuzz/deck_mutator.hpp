@@ -13,7 +13,7 @@
 #include "key_table.hpp"
 
 /// \file
-/// Changes a deck of lacuna-run as a person would who errs: a number, a word, a line, a key that the table of keys knows.
+/// Changes a deck of lacuna-run like a user's mistakes: a number, a word, a line, or a key from the table of keys.
 
 namespace fuzz {
 
@@ -66,7 +66,7 @@ private:
         if (found.empty()) return;
         auto const [at, length] = one_of(found);
         std::string by = number();
-        // A third of them stay near what was there.
+        // A third of the new numbers are variations of the old one.
         if (below(3) == 0) by = deck.substr(at, length) + one_of(std::vector<std::string>{"e3", "e-3", "1", "e9", "e-9"});
         deck.replace(at, length, by);
     }
@@ -91,7 +91,7 @@ private:
         deck.insert(to, line_at(deck, from));
     }
 
-    /// A value of the kind that the key has, as a rule.
+    /// A value, in most cases of the kind that the key needs.
     std::string value_of(lacuna_run::key const& k) {
         using lacuna_run::kind;
         if (below(8) == 0) return number();
@@ -121,7 +121,7 @@ private:
         }
     }
 
-    /// Adds a key of the table to its section, which is added where it is not there.
+    /// Adds a key of the table to its section, and the section if it is missing.
     void add_key(std::string& deck) {
         lacuna_run::key const& k = one_of(lacuna_run::keys);
         std::string const path = k.path;

@@ -25,8 +25,8 @@ extern "C" int LLVMFuzzerInitialize(int* argc, char*** argv) {
     return 0;
 }
 
-/// libFuzzer: whatever study or file of choices it is given, it is refused with one line, or it is written and read back to
-/// the same text and of use for the report.
+/// A study or a file of choices is refused with one line, or it can be reported, and is written and read back to the
+/// same text.
 extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size) {
     if (size == 0) return 0;
     std::string const text(reinterpret_cast<char const*>(data) + 1, size - 1);

@@ -15,9 +15,9 @@
 #include "fuzz/corpus.hpp"
 
 /// \file
-/// All that reads text of particles. The first byte says how: CSV or LAMMPS data, of the plane or of space, with names of
-/// materials or a periodic box; or one number. Any text is refused, or gives particles that a simulation can begin with; CSV
-/// that was read is written and read back to the same text, a number to the same number.
+/// The readers of particle files and of numbers. The first byte chooses CSV or LAMMPS data, in the plane or in space,
+/// with names of materials or a periodic box; or a single number. Any text is refused, or gives particles with which a
+/// simulation can start. CSV is written and read back to the same text, a number to the same number.
 
 namespace {
 
@@ -47,7 +47,7 @@ void read_csv(std::string_view text, bool named) {
     auto list = lacuna::parse_particle_csv<Dim>(text, "file", names);
     check(list);
     auto const written = lacuna::particle_csv(list);
-    auto const back = lacuna::parse_particle_csv<Dim>(written, "file"); // what we write is never refused
+    auto const back = lacuna::parse_particle_csv<Dim>(written, "file"); // written files are never refused
     fuzz::expect(lacuna::particle_csv(back) == written);
 }
 
@@ -62,7 +62,7 @@ void read_number(std::string_view text) {
     double const x = lacuna::read_number("number", text);
     fuzz::expect(std::isfinite(x) && text.find('\0') == text.npos);
     fuzz::expect(lacuna::read_number("number", lacuna::to_text(x)) == x);
-    // What strtod makes of it in the locale "C", which a fuzzer has.
+    // strtod must agree; a fuzzer runs in the locale "C".
     fuzz::expect(std::strtod(std::string(text).c_str(), nullptr) == x);
 }
 

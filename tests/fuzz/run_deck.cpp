@@ -26,8 +26,8 @@
 #include "runner.hpp"
 
 /// \file
-/// Decks of lacuna-run, read and run as the program does, for a few steps: see LLVMFuzzerTestOneInput() for what is asked
-/// of each.
+/// Reads decks of lacuna-run and runs them for a few steps, as the program does. LLVMFuzzerTestOneInput() lists the
+/// promises that it checks.
 
 extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t most);
 
@@ -38,15 +38,15 @@ using lacuna_run::scenario;
 
 constexpr long long last_step = 24, checkpoint_step = 13;
 std::string scratch;
-std::vector<std::string> accepted; ///< decks that were run: most changes to others are refused again
+std::vector<std::string> accepted; ///< decks that were run: most mutations of refused decks are refused again
 
-/// What is run is small: one input takes milliseconds.
+/// True for small scenarios, which take milliseconds.
 bool is_small(scenario const& s) {
     return s.bodies.size() <= 64 && s.joints.pairs.size() <= 240 && s.walls.size() <= 8 && s.loads.size() <= 16 &&
            s.materials.size() <= 8 && s.probes.size() <= 16 && (!s.water || s.water->pores.size() <= 64);
 }
 
-/// \param fine whether "auto" is to be a step with which the ledger adds up closely
+/// \param fine true: reduces the automatic step, so that the energy balance closes well
 void shorten(scenario& s, bool fine) {
     if (fine) s.simulation.safety = std::min(s.simulation.safety, 0.005);
     s.simulation.end_time.reset();
@@ -58,16 +58,16 @@ void shorten(scenario& s, bool fine) {
     if (s.out.picture_every > 0) s.out.picture_every = std::max(s.out.picture_every, 16LL);
 }
 
-/// The same with the particles numbered from behind.
-scenario turned_round(scenario s) {
+/// The same scenario with the particles in reverse order.
+scenario reversed(scenario s) {
     auto const last = std::int32_t(s.bodies.size()) - 1;
-    auto const turn = [](auto& list) { std::reverse(list.begin(), list.end()); };
-    turn(s.bodies.position);
-    turn(s.bodies.velocity);
-    turn(s.bodies.spin);
-    turn(s.bodies.radius);
-    turn(s.bodies.density);
-    turn(s.bodies.material);
+    auto const reverse = [](auto& list) { std::reverse(list.begin(), list.end()); };
+    reverse(s.bodies.position);
+    reverse(s.bodies.velocity);
+    reverse(s.bodies.spin);
+    reverse(s.bodies.radius);
+    reverse(s.bodies.density);
+    reverse(s.bodies.material);
     for (auto& f : s.bodies.fix)
         for (auto& id : f.particles) id = last - id;
     for (auto& l : s.loads)
@@ -79,10 +79,10 @@ scenario turned_round(scenario s) {
 }
 
 struct outcome {
-    std::string message; ///< of the unstable run; empty: it came to its end
+    std::string message; ///< of an unstable run; empty: the run completed
     std::map<std::string, std::string> files;
-    std::optional<fuzz::run_facts> last; ///< of runs of particles
-    std::optional<fuzz::step_facts> seen; ///< the same, where they were looked at
+    std::optional<fuzz::run_facts> last;  ///< final state, if the run has particles
+    std::optional<fuzz::step_facts> seen; ///< summary of all steps, if they were observed
 };
 
 std::map<std::string, std::string> files_in(std::string const& directory) {
@@ -96,7 +96,8 @@ std::map<std::string, std::string> files_in(std::string const& directory) {
 
 enum class look { at_end, at_each_step };
 
-/// What the program does. \param checkpoint empty: from the beginning
+/// Runs a scenario as the program does.
+/// \param checkpoint file from which to resume; empty: from the start
 outcome play(scenario const& s, look how, std::string const& checkpoint = "") {
     auto const run = lacuna_run::make_runner(s);
     lacuna_run::resumption start;
@@ -111,7 +112,7 @@ outcome play(scenario const& s, look how, std::string const& checkpoint = "") {
     lacuna_run::results out(s, checkpoint.empty(), true, start);
     out.begin();
     try {
-        fuzz::expect(run->run(out), "a run that no signal stops comes to its end");
+        fuzz::expect(run->run(out), "a run without signals completes");
         out.finish(run->summary("steps", ""), true);
     } catch (lacuna::unstable_run const& bad) {
         done.message = bad.what();
@@ -122,7 +123,7 @@ outcome play(scenario const& s, look how, std::string const& checkpoint = "") {
     return done;
 }
 
-/// Whether nothing acts on the particles but they on each other, and the fluid between them.
+/// True if only the particles and the fluid between them act on particles.
 bool is_free(scenario const& s) {
     return s.walls.empty() && s.loads.empty() && s.bodies.fix.empty() && s.simulation.gravity == lacuna_run::point{} &&
            s.simulation.local_damping == 0 && s.simulation.mass_damping == 0;
@@ -131,14 +132,15 @@ bool is_free(scenario const& s) {
 void check_steps(scenario const& s, outcome const& done) {
     auto const& seen = *done.seen;
     fuzz::expect(seen.message == done.message && seen.hash == done.last->hash, "the same run twice has the same end");
-    fuzz::expect(seen.finite, "what is not said to be unstable is finite");
+    fuzz::expect(seen.finite, "a run that is not reported as unstable is finite");
     double const steps = double(*s.simulation.steps);
-    if (is_free(s)) fuzz::expect(seen.momentum_change <= 8 * steps * seen.momentum_rounding, "the momentum of free bodies stays");
+    if (is_free(s)) fuzz::expect(seen.momentum_change <= 8 * steps * seen.momentum_rounding, "the momentum of free particles is conserved");
     if (s.simulation.allow_unstable_step) return;
-    // The ledger is of second order in the step, but for slip, and for dashpots, whose forces begin and end at once.
+    // The error of the ledger is of second order in the step, except for slip, and for dashpots, whose forces start and
+    // stop abruptly.
     double const part = seen.share * (8 * seen.share + 4 * s.simulation.viscous_damping);
     double const most = std::min(0.5, part) * seen.energy + 4 * seen.share * seen.spent + 64 * steps * seen.energy_rounding;
-    fuzz::expect(seen.residual <= most, "the energies add up");
+    fuzz::expect(seen.residual <= most, "the energy balance closes");
 }
 
 void check_restart(scenario const& s, outcome const& whole) {
@@ -151,14 +153,14 @@ void check_restart(scenario const& s, outcome const& whole) {
 }
 
 void check_order(scenario const& s, outcome const& whole) {
-    outcome const other = play(turned_round(s), look::at_end);
-    fuzz::expect(other.message.empty() == whole.message.empty(), "a run ends as that of another order");
-    if (!whole.message.empty()) return; // its numbers may be none
+    outcome const other = play(reversed(s), look::at_end);
+    fuzz::expect(other.message.empty() == whole.message.empty(), "a run ends alike with another order of particles");
+    if (!whole.message.empty()) return; // an unstable run may have not-a-numbers
     auto const &a = whole.last->state, &b = other.last->state;
-    fuzz::expect(std::equal(a.begin(), a.end(), b.rbegin(), b.rend()), "a run has the bits of that of another order");
+    fuzz::expect(std::equal(a.begin(), a.end(), b.rbegin(), b.rend()), "the order of particles does not change the bits");
 }
 
-/// So many that a good part of the runs is seen.
+/// Stores the last 512 accepted decks.
 void keep(std::string deck) {
     static std::size_t next = 0;
     if (accepted.size() < 512)
@@ -170,13 +172,13 @@ void keep(std::string deck) {
 bool begins(std::string_view text, std::string_view with) { return text.substr(0, with.size()) == with; }
 
 void check_text(std::string_view text) {
-    fuzz::expect(!text.empty() && text.find('\n') == text.npos, "what is wrong is said in one line");
+    fuzz::expect(!text.empty() && text.find('\n') == text.npos, "a message has one line");
 }
-/// "field = value: must be rule", or where the text is not TOML.
+/// "field = value: must be rule", or the position of an error in TOML's syntax.
 void check_refusal(std::string_view text) {
     check_text(text);
     bool const syntax = begins(text, "deck:") || begins(text, "not a TOML file: ");
-    fuzz::expect(syntax || text.find(": must ") != text.npos, "a refusal says what must be");
+    fuzz::expect(syntax || text.find(": must ") != text.npos, "a refusal states the rule");
 }
 
 } // namespace
@@ -202,11 +204,11 @@ extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t s
     return length;
 }
 
-/// A deck is refused by one line that says what must be; nothing but a refusal or an unstable run is thrown. A run ends with
-/// numbers, or it is said to be unstable. The ledger adds up to what its order in the step allows; the momentum of bodies
-/// that are free stays. The same run twice, taken up again at a checkpoint, or with its particles in another order has the
-/// same bits, and the resumed one the same files. Not compared: numbers of threads, which so few particles are not shared
-/// among.
+/// A refusal is one line that states the rule; no exception other than a refusal or an unstable run is thrown. A run
+/// ends with finite numbers or is reported as unstable. The energy balance closes within the order of the scheme. The
+/// momentum of free particles is conserved. A run has the same bits when it is repeated, resumed from a checkpoint, or
+/// given its particles in another order; a resumed run also has the same files. Numbers of threads are not compared: so
+/// few particles are not distributed over threads.
 extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size) {
     try {
         scenario s = lacuna_run::read_scenario({reinterpret_cast<char const*>(data), size}, "deck", "");

@@ -7,11 +7,11 @@
 
 #include "scenario.hpp"
 
-/// libFuzzer: whatever text it is given, the reader of scenarios accepts it or refuses it with one line.
+/// The reader of scenarios accepts any text or refuses it with one line.
 extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size) {
     try {
         auto const s = lacuna_run::read_scenario({reinterpret_cast<char const*>(data), size}, "input", "");
-        // What is accepted hangs together.
+        // An accepted scenario is consistent.
         for (auto const& p : s.joints.pairs)
             for (auto const id : p)
                 if (id < 0 || std::size_t(id) >= s.bodies.size()) std::abort();

@@ -16,11 +16,14 @@
 #include "fuzz/corpus.hpp"
 
 /// \file
-/// The triangulation in the plane and in space, in both precisions: any numbers as particles, particles on a small grid,
-/// where many lie on one circle, on one line or in one place, radii over many decades, lattices with particles far away.
-/// It refuses them as bad input, by std::invalid_argument alone, or gives a mesh that is whole: corners that are
-/// particles, sizes above zero, neighbours that know each other; that covers the hull; and whose orthogonal spheres no
-/// particle enters, by trying all of them in long double. The same of the body's pores, of which a network is made.
+/// The triangulation in the plane and in space, in both precisions. The input is any numbers as particles; particles on
+/// a small grid, where many are on one circle, on one line or coincide; radii over many decades; or lattices with
+/// distant particles.
+///
+/// The triangulation refuses them by std::invalid_argument, or gives a sound mesh: corners are particles, sizes are
+/// above zero, neighbours refer to each other, the mesh covers the hull, and no particle enters an orthogonal sphere
+/// (tested for all particles in long double). The same holds, except for the hull, for the mesh of triangulate_body(),
+/// from which a pore network is made.
 
 namespace {
 
@@ -38,8 +41,8 @@ template <class Real, int Dim>
 struct particles {
     std::vector<Real> x, radius; ///< x: Dim per particle
 
-    void add(std::array<double, std::size_t(Dim)> const& place, double r) {
-        for (double const c : place) x.push_back(Real(c));
+    void add(std::array<double, std::size_t(Dim)> const& position, double r) {
+        for (double const c : position) x.push_back(Real(c));
         radius.push_back(Real(r));
     }
     lacuna::points_view<Real, Dim> view() const { return {x.data(), radius.size(), std::size_t(Dim)}; }
@@ -56,17 +59,17 @@ void read_numbers(reader& in, particles<Real, Dim>& p) {
         p.radius.push_back(number[Dim]);
     }
 }
-/// Places in sixteenths, radii over ten decades; or, on a small grid, of a few sizes.
+/// Coordinates in sixteenths and radii over ten decades; or positions on a small grid and radii of a few sizes.
 template <class Real, int Dim>
 void read_bytes(reader& in, particles<Real, Dim>& p, bool grid) {
     while (in.left(Dim + 1) && p.radius.size() < most) {
-        std::array<double, std::size_t(Dim)> place;
-        for (double& c : place) c = grid ? in.byte() % (Dim == 2 ? 12 : 5) : (in.byte() - 128) / 16.0;
+        std::array<double, std::size_t(Dim)> position;
+        for (double& c : position) c = grid ? in.byte() % (Dim == 2 ? 12 : 5) : (in.byte() - 128) / 16.0;
         double const r = in.byte();
-        p.add(place, grid ? std::fmod(r, 8) * 0.25 : std::pow(10.0, (r - 200) / 24));
+        p.add(position, grid ? std::fmod(r, 8) * 0.25 : std::pow(10.0, (r - 200) / 24));
     }
 }
-/// A lattice with a lack of order, small particles upon it, and some far away.
+/// A disturbed lattice with small particles on it and some distant ones.
 template <class Real, int Dim>
 void read_lattice(reader& in, particles<Real, Dim>& p) {
     int const side = 2 + in.byte() % (Dim == 2 ? 4 : 2);
@@ -75,21 +78,21 @@ void read_lattice(reader& in, particles<Real, Dim>& p) {
     auto const shift = [&] { return (in.byte() - 127.5) / 256; };
     for (int k = 0; k < (Dim == 2 ? side * side : side * side * side); ++k) {
         double const u = k % side, v = k / side % side;
-        std::array<double, std::size_t(Dim)> place{};
-        place[0] = offset + u * std::cos(turn) - v * std::sin(turn) + noise * shift();
-        place[1] = u * std::sin(turn) + v * std::cos(turn) + noise * shift();
-        if (Dim == 3) place[Dim - 1] = k / (side * side) + noise * shift();
-        p.add(place, 0.5);
+        std::array<double, std::size_t(Dim)> position{};
+        position[0] = offset + u * std::cos(turn) - v * std::sin(turn) + noise * shift();
+        position[1] = u * std::sin(turn) + v * std::cos(turn) + noise * shift();
+        if (Dim == 3) position[Dim - 1] = k / (side * side) + noise * shift();
+        p.add(position, 0.5);
         if (in.byte() % 4 == 0) {
-            for (double& c : place) c += 0.5 * shift() + ratio * shift();
-            p.add(place, ratio * (0.5 + shift()));
+            for (double& c : position) c += 0.5 * shift() + ratio * shift();
+            p.add(position, ratio * (0.5 + shift()));
         }
     }
     while (in.left(Dim + 1) && p.radius.size() < most) {
-        std::array<double, std::size_t(Dim)> place;
+        std::array<double, std::size_t(Dim)> position;
         double const far = std::pow(10.0, in.byte() % 20);
-        for (double& c : place) c = far * shift();
-        p.add(place, 0.5);
+        for (double& c : position) c = far * shift();
+        p.add(position, 0.5);
     }
 }
 
@@ -104,7 +107,7 @@ number determinant(std::array<std::array<number, N>, N> const& m) {
     }
 }
 
-/// What the numbers of some particles are good for.
+/// Checks a mesh by testing all particles against all simplices.
 template <class Real, int Dim>
 class brute_force {
     static constexpr auto dim = std::size_t(Dim);
@@ -112,11 +115,11 @@ class brute_force {
     particles<Real, Dim> const& p_;
     number reach_ = 0, shift_ = 0;
 
-    number place(std::int32_t i, std::size_t a) const { return number(p_.x[std::size_t(i) * dim + a]); }
+    number coordinate(std::int32_t i, std::size_t a) const { return number(p_.x[std::size_t(i) * dim + a]); }
     number weight(std::int32_t i) const { return number(p_.radius[std::size_t(i)]) * number(p_.radius[std::size_t(i)]); }
     std::array<number, dim> apart(std::int32_t i, std::int32_t from) const {
         std::array<number, dim> u;
-        for (std::size_t a = 0; a < dim; ++a) u[a] = place(i, a) - place(from, a);
+        for (std::size_t a = 0; a < dim; ++a) u[a] = coordinate(i, a) - coordinate(from, a);
         return u;
     }
     static number squared(std::array<number, dim> const& u) {
@@ -139,11 +142,11 @@ public:
                 for (auto const c : apart(std::int32_t(i), std::int32_t(j))) extent = std::max(extent, std::fabs(c));
         }
         reach_ = largest > 0 ? std::min(extent, 64 * largest) : extent;
-        // What regular_triangulation() says that it adds to heights in space.
+        // The shift of heights in space that regular_triangulation() documents.
         if (Dim == 3) shift_ = largest > 0 ? std::min(1e-7L * extent * extent, 64e-7L * largest * largest) : 1e-7L * extent * extent;
     }
 
-    /// Whether p stays out of the orthogonal sphere of s when weights may change by what is allowed.
+    /// True if p is outside the orthogonal sphere of s within the allowed change of weights.
     bool is_outside(simplex const& s, std::int32_t p) const {
         number inside = 0, error = 0, share = 0, whole = 0, nearest = std::numeric_limits<number>::infinity();
         for (std::size_t k = 0; k <= dim; ++k) {
@@ -161,8 +164,8 @@ public:
         share += std::fabs(whole);
         return !(inside > error + share * (2e-7L * nearest + shift_ + 1e-9L * reach_ * reach_));
     }
-    /// Whether a simplex has no size but for rounding: over a straight side of the hull such are left out, each by itself, and
-    /// one that stays may have a side to the body where another was.
+    /// True if the size of a simplex is zero within rounding. The triangulation leaves out such simplices at a straight
+    /// side of the hull, each independently. So one that stays may have no neighbour at a side towards the interior.
     bool is_flat(simplex const& s) const {
         std::array<std::array<number, dim>, dim> m;
         number longest = 0;
@@ -171,14 +174,14 @@ public:
             for (std::size_t j = 0; j < k; ++j) longest = std::max(longest, std::sqrt(squared(apart(s[j], s[k]))));
         return std::fabs(determinant(m)) <= 1e-9L * std::pow(longest, number(Dim));
     }
-    /// Whether no particle is beyond a side of a simplex, opposite its corner c.
+    /// True if particle p is not beyond the side of a simplex that is opposite its corner c.
     bool is_within(simplex const& s, std::size_t c, std::int32_t p) const {
-        auto turned = s;
-        turned[c] = p;
+        auto replaced = s;
+        replaced[c] = p;
         std::array<std::array<number, dim>, dim> m;
         number longest = 0;
         for (std::size_t k = 0; k < dim; ++k) {
-            m[k] = apart(turned[k + 1], turned[0]);
+            m[k] = apart(replaced[k + 1], replaced[0]);
             longest = std::max(longest, std::sqrt(squared(m[k])));
         }
         return determinant(m) >= -1e-9L * std::pow(longest, number(Dim));
@@ -199,7 +202,7 @@ public:
                 }
                 fuzz::expect(std::size_t(other) < mesh.size(), "neighbours are simplices");
                 auto const& back = mesh.neighbours[std::size_t(other)];
-                fuzz::expect(std::find(back.begin(), back.end(), std::int32_t(t)) != back.end(), "neighbours know each other");
+                fuzz::expect(std::find(back.begin(), back.end(), std::int32_t(t)) != back.end(), "neighbours refer to each other");
             }
             std::array<std::array<number, dim>, dim> m;
             for (std::size_t k = 0; k < dim; ++k) m[k] = apart(s[k + 1], s[0]);
@@ -239,7 +242,7 @@ extern "C" int LLVMFuzzerInitialize(int* argc, char*** argv) {
     return 0;
 }
 
-/// The first byte: dimension, precision, kind.
+/// The first byte chooses dimension, precision and kind of input.
 extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size) {
     if (size == 0) return 0;
     reader in{data, size, 1};

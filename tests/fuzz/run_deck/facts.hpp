@@ -8,35 +8,35 @@
 
 namespace fuzz {
 
-/// A model that is not compiled into the target: the deck is passed over.
+/// Thrown for a model that is not compiled into the target: the deck is skipped.
 struct other_kind {};
 
-/// Where a run is, in numbers that do not depend on the kind of model.
+/// The state of a run, in a form that does not depend on the kind of model.
 struct run_facts {
     std::uint64_t hash = 0;                   ///< of the complete state
-    std::vector<std::array<double, 9>> state; ///< position, velocity, spin, by the number of the particle
+    std::vector<std::array<double, 9>> state; ///< position, velocity and spin of each particle, by its number
 };
 
-/// What was seen in all steps of a run.
+/// Summary of all steps of a run.
 struct step_facts {
-    std::string message;        ///< of the unstable run; empty: it came to its end
+    std::string message;        ///< of an unstable run; empty: the run completed
     std::uint64_t hash = 0;     ///< of the complete state after the last step
     bool finite = true;         ///< all numbers of all particles, and the ledger
-    double share = 0;           ///< the largest of the step over its bound
-    double energy = 0;          ///< the largest term of the ledger, J
-    double spent = 0;           ///< what friction and damping took, J
-    double residual = 0;        ///< the largest of the ledger, J
-    double energy_rounding = 0; ///< what rounding makes of the ledger in a step at most, J, about
-    double momentum_change = 0; ///< the largest from the beginning, along an axis, kg m/s
-    double momentum_rounding = 0;
+    double share = 0;           ///< largest ratio of the step to its bound, 1
+    double energy = 0;          ///< largest term of the ledger, J
+    double spent = 0;           ///< energy dissipated by friction and damping, J
+    double residual = 0;        ///< largest residual of the ledger, J
+    double energy_rounding = 0; ///< estimated largest error of the ledger in one step due to rounding, J
+    double momentum_change = 0; ///< largest change of momentum since the start, along an axis, kg m/s
+    double momentum_rounding = 0; ///< estimated largest error of the momentum in one step due to rounding, kg m/s
 };
 
 class watched {
 public:
     virtual ~watched() = default;
-    /// \param with_hash of a state that can be written: not of an unstable one
+    /// \param with_hash false for an unstable run, whose state may not be writable
     virtual run_facts facts(bool with_hash) const = 0;
-    /// Runs a copy and looks at each step.
+    /// Runs a copy and observes each step.
     virtual step_facts rehearse(long long steps) const = 0;
 };
 

@@ -8,7 +8,7 @@
 #include "runner.hpp"
 
 /// \file
-/// The kinds of models that are not compiled into the target, for time.
+/// The kinds of models that are not compiled into the target, to save compile time.
 
 namespace lacuna_run {
 

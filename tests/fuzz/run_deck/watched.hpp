@@ -10,8 +10,8 @@
 #include "particle_runner.hpp"
 
 /// \file
-/// The runs of lacuna-run as the target run_deck looks at them. One kind of model is one file in this folder: it defines
-/// make_particle_runner(), in place of those of the program.
+/// Runs of lacuna-run that the target run_deck can observe. Each kind of model has a file in this folder, which defines
+/// make_particle_runner() in place of the program's definition.
 
 namespace fuzz {
 
@@ -43,7 +43,7 @@ public:
 
     step_facts rehearse(long long steps) const override {
         simulation copy = this->simulated();
-        // As many steps of the fluid take too long here.
+        // More than 1000 fluid steps per particle step take too long here.
         if constexpr (lacuna::has_fluid<Model>)
             if (scenario_.water && !scenario_.water->implicit && copy.time_step() > 1000 * copy.flow().mean_throat_limit())
                 throw other_kind();
@@ -53,7 +53,7 @@ public:
         } catch (lacuna::unstable_run const& bad) {
             f.message = bad.what();
         }
-        // What is unstable may be no state that can be written.
+        // The state of an unstable run may not be writable.
         if (f.message.empty()) f.hash = lacuna::state_hash(copy);
         return f;
     }
@@ -86,7 +86,7 @@ private:
             add_rounding(sim);
         }
 
-        /// Of springs: in the bound those of particles that are held do not count.
+        /// Largest stiffness in the scenario. The bound of the step ignores the springs of fixed particles.
         double stated_stiffness() const {
             double most = 0;
             for (auto const& m : scenario.materials) most = std::max({most, m.normal_stiffness, m.shear_stiffness});
@@ -95,8 +95,8 @@ private:
                 most = std::max({most, b.normal_stiffness.value_or(0.0), b.shear_stiffness.value_or(0.0)});
             return most;
         }
-        /// Rounding of forces, velocities and places, from what energies and steps say of them: a force is at most
-        /// sqrt(2 k E), a momentum sqrt(2 m E), and stiffnesses are about those of the bound, 4 m / critical^2.
+        /// Estimates the rounding errors of forces, velocities and positions from energies and steps. A force is at
+        /// most sqrt(2 k E), a momentum sqrt(2 m E), and stiffnesses are about those of the bound, 4 m / critical^2.
         void add_rounding(simulation const& sim) {
             double const epsilon = double(std::numeric_limits<typename Model::real>::epsilon());
             double heaviest = 0, momenta = 0, reach = 0;
@@ -110,7 +110,7 @@ private:
             double const stiffness = std::max(4 * heaviest / (critical * critical), stated_stiffness());
             double const pairs = double(sim.size()) * (dim == 2 ? 4 : 8) + double(scenario.joints.pairs.size());
             double momentum = momenta + step * pairs * std::sqrt(2 * stiffness * f.energy);
-            // Places are known to epsilon times the distance from the origin, and springs are as long as places are apart.
+            // The error of a position, and of a spring's length, is epsilon times the distance from the origin.
             double const blur = epsilon * reach;
             double energy = epsilon * f.energy + pairs * (std::sqrt(stiffness * f.energy) * blur + stiffness * blur * blur);
             if constexpr (lacuna::has_fluid<Model>)
