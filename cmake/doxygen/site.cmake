@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# cmake -D SOURCE=<repository> -D OUT=<folder> -D DOXYGEN=<program> -D MATHJAX=<folder> -D VERSION=<x.y.z> -P site.cmake: the
-# documentation in OUT/html. A text that stands elsewhere is taken from there: the program and the limits from README.md, the
-# pages of programs, of tests and of benches from their README.md. A warning of Doxygen is an error.
+# cmake -D SOURCE=<repository> -D OUT=<folder> -D DOXYGEN=<program> -D MATHJAX=<folder> -D VERSION=<x.y.z> -P
+# site.cmake: writes the documentation to OUT/html. The example program and the limits come from README.md, the pages
+# of programs, tests and benches from their README.md. A warning of Doxygen is an error.
 
 cmake_minimum_required(VERSION 3.25)
 
 if(NOT EXISTS "${DOXYGEN}" OR NOT EXISTS "${MATHJAX}/MathJax.js")
-  message(FATAL_ERROR "the documentation needs Doxygen ('${DOXYGEN}') and MathJax 2 ('${MATHJAX}'): "
-    "sh cmake/dependencies.sh documentation, or give -D LACUNA_DOXYGEN=<program> -D LACUNA_MATHJAX=<folder of MathJax.js>")
+  message(FATAL_ERROR "the documentation needs Doxygen ('${DOXYGEN}') and MathJax 2 ('${MATHJAX}'): run sh "
+    "cmake/dependencies.sh documentation, or give -D LACUNA_DOXYGEN=<program> -D LACUNA_MATHJAX=<folder of MathJax.js>")
 endif()
 
 file(REMOVE_RECURSE "${OUT}")
@@ -16,7 +16,7 @@ file(MAKE_DIRECTORY "${OUT}/pages")
 file(GLOB pages "${CMAKE_CURRENT_LIST_DIR}/*.md")
 file(COPY ${pages} DESTINATION "${OUT}/pages")
 
-# section(out heading file): the text below a heading of a file, up to the next of its kind.
+# section(out heading file): the text below a heading of a file, up to the next heading of that level.
 function(section out heading file)
   file(READ "${SOURCE}/${file}" text)
   string(FIND "${text}" "\n## ${heading}\n" from)
@@ -30,25 +30,27 @@ function(section out heading file)
   set(${out} "${text}" PARENT_SCOPE)
 endfunction()
 
-# site_links(out text): links to a document or a tutorial program become links to its page. Other files of the repository are
-# not on the site: of a link to them the text stays. Pictures and addresses stay.
-string(ASCII 1 kept)
+# site_links(out text): links to a document or a tutorial program become links to its page. Links to other files of the
+# repository, which are not on the site, are replaced by their text. Pictures and web addresses are left alone.
+string(ASCII 1 mark)
 function(site_links out text)
-  string(REGEX REPLACE "!\\[([^]\n]*)\\]\\(" "!${kept}\\1${kept}(" text "${text}")
-  string(REGEX REPLACE "\\[([^]\n]*)\\]\\((https?://)" "${kept}\\1${kept}(\\2" text "${text}")
+  string(REGEX REPLACE "!\\[([^]\n]*)\\]\\(" "!${mark}\\1${mark}(" text "${text}")
+  string(REGEX REPLACE "\\[([^]\n]*)\\]\\((https?://)" "${mark}\\1${mark}(\\2" text "${text}")
   set(documents "scenario;lacuna_run;cartilage;cartilage;uniaxial;uniaxial;poroelasticity;poroelasticity"
     "tutorial;tutorial;tests;validation;bench;benches")
   while(documents)
     list(POP_FRONT documents folder label)
-    string(REGEX REPLACE "\\[([^]\n]*)\\]\\([^)\n]*${folder}/README.md[^)\n]*\\)" "\\\\ref ${label} \"\\1\"" text "${text}")
+    string(REGEX REPLACE "\\[([^]\n]*)\\]\\([^)\n]*${folder}/README.md[^)\n]*\\)" "\\\\ref ${label} \"\\1\""
+      text "${text}")
   endwhile()
-  string(REGEX REPLACE "\\[([^]\n]*)\\]\\(([0-9][0-9]_[a-z_]+)\\.cpp\\)" "\\\\subpage tutorial_\\2 \"\\1\"" text "${text}")
+  string(REGEX REPLACE "\\[([^]\n]*)\\]\\(([0-9][0-9]_[a-z_]+)\\.cpp\\)" "\\\\subpage tutorial_\\2 \"\\1\""
+    text "${text}")
   string(REGEX REPLACE "\\[([^]\n]*)\\]\\([^)\n]*\\)" "\\1" text "${text}")
-  string(REGEX REPLACE "${kept}([^${kept}\n]*)${kept}" "[\\1]" text "${text}")
+  string(REGEX REPLACE "${mark}([^${mark}\n]*)${mark}" "[\\1]" text "${text}")
   set(${out} "${text}" PARENT_SCOPE)
 endfunction()
 
-# readme_page(label title text): a document as a page; its own title goes.
+# readme_page(label title text): writes a document as a page under a title that replaces its own.
 function(readme_page label title text)
   string(REGEX REPLACE "^# [^\n]*\n" "" text "${text}")
   site_links(text "${text}")
@@ -71,14 +73,14 @@ foreach(name IN ITEMS cartilage uniaxial poroelasticity)
   readme_page(${name} ${name} "${text}")
 endforeach()
 
-# The keys of a deck, which a test compares with the program's own table, have a page of their own.
+# The keys of a deck get a separate page. A test compares them with the program's own table.
 file(READ "${SOURCE}/examples/scenario/README.md" text)
 section(keys "Keys" examples/scenario/README.md)
 readme_page(deck_keys "Deck keys of lacuna-run" "${keys}")
 string(REPLACE "${keys}" "\nSee \\ref deck_keys.\n" text "${text}")
 readme_page(lacuna_run "lacuna-run: a run without writing C++" "${text}")
 
-# A page for each tutorial program: what it shows stands in a row of the table, the program below it.
+# A page for each tutorial program: its row in the table of README.md, then its source.
 file(READ "${SOURCE}/examples/tutorial/README.md" text)
 readme_page(tutorial "Tutorial" "${text}")
 file(GLOB programs RELATIVE "${SOURCE}/examples/tutorial" "${SOURCE}/examples/tutorial/[0-9]*.cpp")
@@ -94,7 +96,7 @@ foreach(program IN LISTS programs)
   list(APPEND tutorials tutorial_${name})
 endforeach()
 
-# Each folder of tests has one row, and what a row names exists.
+# Each folder of tests has one row, and each row names a folder or a file that exists.
 file(READ "${SOURCE}/tests/README.md" text)
 string(REGEX MATCHALL "\n\\| `[^|]*` \\|" rows "${text}")
 string(REGEX MATCHALL "`[a-z_./]+`" names "${rows}")
@@ -123,7 +125,7 @@ readme_page(validation "Tests and validation" "${text}")
 file(READ "${SOURCE}/bench/README.md" text)
 readme_page(benches "Speed and benches" "${text}")
 
-# Doxygen passes over a name that it does not know: a page must not name what has gone.
+# Doxygen ignores names that it does not know. A page must not name classes, functions or headers that do not exist.
 file(GLOB_RECURSE headers "${SOURCE}/include/lacuna/*.hpp")
 set(code "")
 foreach(header IN LISTS headers ITEMS "${SOURCE}/cmake/lacuna_components.cmake" "${SOURCE}/CMakeLists.txt")
@@ -164,7 +166,7 @@ execute_process(COMMAND "${DOXYGEN}" "${OUT}/Doxyfile" RESULT_VARIABLE result OU
 if(NOT result EQUAL 0)
   message(FATAL_ERROR "${said}")
 endif()
-# As much of MathJax as draws TeX as SVG.
+# The parts of MathJax that draw TeX as SVG.
 foreach(part IN ITEMS MathJax.js extensions jax/element jax/input/TeX jax/output/SVG/autoload jax/output/SVG/config.js
     jax/output/SVG/jax.js jax/output/SVG/fonts/TeX)
   if(NOT EXISTS "${MATHJAX}/${part}")
@@ -174,21 +176,23 @@ foreach(part IN ITEMS MathJax.js extensions jax/element jax/input/TeX jax/output
   file(COPY "${MATHJAX}/${part}" DESTINATION "${OUT}/html/mathjax/${folder}")
 endforeach()
 
-foreach(page IN ITEMS index install units restart paraview lacuna_run deck_keys cartilage uniaxial poroelasticity tutorial ${tutorials}
-    motion contacts bonds flow time_step how_a_step_works decisions other_codes validation benches limits)
+foreach(page IN ITEMS index install units restart paraview lacuna_run deck_keys cartilage uniaxial poroelasticity
+    tutorial ${tutorials} motion contacts bonds flow time_step how_a_step_works decisions other_codes validation benches
+    limits)
   if(NOT EXISTS "${OUT}/html/${page}.html")
     message(FATAL_ERROR "there is no page ${page}.html")
   endif()
 endforeach()
 
-# The box for searching finds what begins with the word that is typed.
+# The search box finds entries that begin with the typed word.
 file(GLOB entries "${OUT}/html/search/all_*.js")
 set(found "")
 foreach(entry IN LISTS entries)
   file(READ "${entry}" text)
   string(APPEND found "${text}")
 endforeach()
-foreach(word IN ITEMS restart units paraview install tutorial deck_20keys cartilage checkpoint_5fevery bonds tests speed)
+foreach(word IN ITEMS restart units paraview install tutorial deck_20keys cartilage
+    checkpoint_5fevery bonds tests speed)
   if(NOT found MATCHES "\n  \\['${word}")
     message(FATAL_ERROR "a search for '${word}' finds nothing")
   endif()

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# cmake -D ROOT=<repository> -P dependencies.cmake: cmake/dependencies.sh knows each name by which a script or a document calls it.
+# cmake -D ROOT=<repository> -P dependencies.cmake: cmake/dependencies.sh knows each name by which a script or a
+# document calls it.
 
 cmake_minimum_required(VERSION 3.25)
 

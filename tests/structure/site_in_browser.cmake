@@ -1,26 +1,29 @@
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# cmake -D SITE=<html folder> -D CHROMIUM=... -D SCRATCH=... -P site_in_browser.cmake: opens every page of the documentation in
-# headless Chromium, 390 pixels wide as on a phone and without a network, and measures it: nothing makes the page scroll
-# sideways, no picture is missing, every formula is drawn. Then a page with every fault that is looked for, which has to be found.
+# cmake -D SITE=<html folder> -D CHROMIUM=<program> -D SCRATCH=<folder> [-D ALL=ON] -P site_in_browser.cmake: opens
+# pages of the documentation in headless Chromium, 390 pixels wide as on a phone and without a network. No page
+# scrolls sideways, no picture is missing, every formula is drawn. Then it opens a page with each of these faults and
+# must find them.
 
 cmake_minimum_required(VERSION 3.25)
 
 file(REMOVE_RECURSE "${SCRATCH}")
 file(MAKE_DIRECTORY "${SCRATCH}")
 
-# visit(pages): sets `report`, a JSON array with a record of each page, and `said`, what the console said.
+# visit(pages): sets `report`, a JSON array with a record for each page, and `said`, the messages on the console.
 function(visit)
   list(JOIN ARGN "\", \"" pages)
   file(WRITE "${SCRATCH}/frame.html" "<!DOCTYPE html><html><body style=\"margin:0\">
 <iframe id=\"frame\" style=\"width:390px;height:900px;border:0\"></iframe><pre id=\"found\"></pre>
 <script>
 const frame = document.getElementById('frame');
-// Elements that reach beyond the page although nothing scrolls: cut. What stands in a box that scrolls is not.
+// Number of elements that reach beyond the page and are not in a box that scrolls.
 function cut(page) {
   const right = page.documentElement.clientWidth + 0.5;
-  const scrolls = (e) => e && e !== page.body && (page.defaultView.getComputedStyle(e).overflowX !== 'visible' || scrolls(e.parentElement));
-  return [...page.querySelectorAll('#top h1, .contents p, .contents li, .contents img, .contents table, .contents svg, .title')].filter(
+  const scrolls = (e) => e && e !== page.body &&
+    (page.defaultView.getComputedStyle(e).overflowX !== 'visible' || scrolls(e.parentElement));
+  const kinds = '.title, .contents p, .contents li, .contents img, .contents table, .contents svg';
+  return [...page.querySelectorAll(kinds)].filter(
     (e) => e.getBoundingClientRect().right > right && !scrolls(e.parentElement)).length;
 }
 async function visit(url) {
@@ -56,7 +59,7 @@ onload = async () => {
   set(said "${said}" PARENT_SCOPE)
 endfunction()
 
-# All pages that are written by hand, and of the references to code those that are long and wide; with -D ALL=ON every page.
+# All pages that are written by hand, and some long and wide ones of the reference; with -D ALL=ON every page.
 if(ALL)
   file(GLOB pages "${SITE}/*.html")
 else()
@@ -76,7 +79,7 @@ endforeach()
 list(TRANSFORM pages PREPEND "file://")
 visit(${pages})
 
-# faults_of(report): sets `faults`, the records that have some, and `formulas`, how many were drawn.
+# faults_of(report): sets `faults`, the records of pages with faults, and `formulas`, the number of formulas drawn.
 function(faults_of report)
   string(JSON count LENGTH "${report}")
   math(EXPR last "${count} - 1")
@@ -106,7 +109,7 @@ if(faults OR said)
   message(FATAL_ERROR "faults:\n${faults}${said}")
 endif()
 
-# As many formulas as the pages have.
+# The pages have as many formulas as were drawn.
 file(GLOB sources "${SITE}/../pages/*.md")
 set(wanted 0)
 foreach(source IN LISTS sources)
@@ -122,9 +125,9 @@ endif()
 
 file(READ "${SITE}/motion.html" page)
 string(REPLACE "<head>" "<head><base href=\"file://${SITE}/\"/>" page "${page}")
-string(REPLACE "<div class=\"textblock\">" "<div class=\"textblock\"><p style=\"width:800px\">wide</p><p>\\(\\nosuchmacro\\)</p>
-  <pre>\\(raw\\)</pre><img src=\"missing.png\"><img src=\"https://example.invalid/x.png\"><script>console.error('script')</script>"
-  page "${page}")
+string(REPLACE "<div class=\"textblock\">" "<div class=\"textblock\"><p style=\"width:800px\">wide</p>
+  <p>\\(\\nosuchmacro\\)</p><pre>\\(raw\\)</pre><img src=\"missing.png\"><img src=\"https://example.invalid/x.png\">
+  <script>console.error('script')</script>" page "${page}")
 file(WRITE "${SCRATCH}/faulty.html" "${page}")
 visit("file://${SCRATCH}/faulty.html")
 foreach(fault IN ITEMS "scrolls\":[1-9]" "cut\":1" "unloaded\":2" "raw\":2" "wrong\":1")
