@@ -20,8 +20,8 @@
 /// a small grid, where many are on one circle, on one line or coincide; radii over many decades; or lattices with
 /// distant particles.
 ///
-/// The triangulation refuses them by std::invalid_argument, or gives a sound mesh: corners are particles, sizes are
-/// above zero, neighbours refer to each other, the mesh covers the hull, and no particle enters an orthogonal sphere
+/// The triangulation refuses them by std::invalid_argument, or gives a sound mesh. Corners are particles, sizes are
+/// above zero, and neighbours refer to each other. The mesh covers the hull. No particle enters an orthogonal sphere
 /// (tested for all particles in long double). The same holds, except for the hull, for the mesh of triangulate_body(),
 /// from which a pore network is made.
 
@@ -74,13 +74,13 @@ template <class Real, int Dim>
 void read_lattice(reader& in, particles<Real, Dim>& p) {
     int const side = 2 + in.byte() % (Dim == 2 ? 4 : 2);
     double const noise = std::pow(10.0, -in.byte() % 18), ratio = std::pow(10.0, -(in.byte() % 50) / 10.0);
-    double const turn = in.byte() / 100.0, offset = std::pow(10.0, in.byte() % 8) - 1;
+    double const angle = in.byte() / 100.0, offset = std::pow(10.0, in.byte() % 8) - 1;
     auto const shift = [&] { return (in.byte() - 127.5) / 256; };
     for (int k = 0; k < (Dim == 2 ? side * side : side * side * side); ++k) {
         double const u = k % side, v = k / side % side;
         std::array<double, std::size_t(Dim)> position{};
-        position[0] = offset + u * std::cos(turn) - v * std::sin(turn) + noise * shift();
-        position[1] = u * std::sin(turn) + v * std::cos(turn) + noise * shift();
+        position[0] = offset + u * std::cos(angle) - v * std::sin(angle) + noise * shift();
+        position[1] = u * std::sin(angle) + v * std::cos(angle) + noise * shift();
         if (Dim == 3) position[Dim - 1] = k / (side * side) + noise * shift();
         p.add(position, 0.5);
         if (in.byte() % 4 == 0) {

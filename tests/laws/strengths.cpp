@@ -210,8 +210,8 @@ TEST_CASE("a beam's stiffness and the stress at its rim by hand", "[moment]") {
     auto const p = law::combine(steel, steel, t);
     double const A = 2 * R * t, I = 2.0 / 3 * R * R * R * t, G = E / 2.5, phi = 12 * E * I / (kappa * G * A * L * L);
     pair_motion<double, 2> const m{L * 1.001, ri, rj, {1e-3}, 0};
-    pair_rotation<double, 2> const turn{{2e-3}, 0.0, {1, 0}};
-    auto const a = law::evaluate(p, m, turn, law::initial<double, 2>(L, ri + rj));
+    pair_rotation<double, 2> const rotation{{2e-3}, 0.0, {1, 0}};
+    auto const a = law::evaluate(p, m, rotation, law::initial<double, 2>(L, ri + rj));
     double const e = 0.5 * 1.001 * L * (rj - ri) / (ri + rj);
     double const V = 12 * E * I / (L * L * L * (1 + phi)) * (1e-3 + e * 2e-3), M = E * I / L * 2e-3;
     REQUIRE_THAT(a.normal_force, WithinRel(E * A * 0.001, 1e-9));
@@ -224,13 +224,13 @@ TEST_CASE("a beam's stiffness and the stress at its rim by hand", "[moment]") {
     for (double const over : {0.999, 1.001}) {
         law::material weak = steel;
         weak.tensile_strength = stress / over;
-        auto const b = law::evaluate(law::combine(weak, weak, t), m, turn, law::initial<double, 2>(L, ri + rj));
+        auto const b = law::evaluate(law::combine(weak, weak, t), m, rotation, law::initial<double, 2>(L, ri + rj));
         REQUIRE(b.broken == (over > 1));
         if (b.broken) REQUIRE(b.broken_in_tension);
         weak = steel;
         weak.tensile_strength = 1e9;
         weak.shear_strength = V / A / over;
-        auto const c = law::evaluate(law::combine(weak, weak, t), m, turn, law::initial<double, 2>(L, ri + rj));
+        auto const c = law::evaluate(law::combine(weak, weak, t), m, rotation, law::initial<double, 2>(L, ri + rj));
         REQUIRE(c.broken == (over > 1));
         if (c.broken) REQUIRE_FALSE(c.broken_in_tension);
     }

@@ -65,17 +65,17 @@ std::string value_text(T const& value, std::string_view none) {
 template <class T>
 std::optional<difference> first_difference(T const& a, T const& b, std::string const& path,
                                            std::string_view none = "none") {
-    auto const told = [&] { return difference{path, detail::value_text(a, none), detail::value_text(b, none)}; };
+    auto const differ = [&] { return difference{path, detail::value_text(a, none), detail::value_text(b, none)}; };
     if constexpr (std::is_floating_point_v<T>) {
         if (a == b || (a != a && b != b)) return {};
-        return told();
+        return differ();
     } else if constexpr (std::is_arithmetic_v<T> || std::is_enum_v<T> || std::is_same_v<T, std::string>) {
         if (a == b) return {};
-        return told();
+        return differ();
     } else if constexpr (detail::is_optional<T>) {
         if (a && b) return first_difference(*a, *b, path, none);
         if (!a && !b) return {};
-        return told();
+        return differ();
     } else if constexpr (detail::is_list<T>) {
         std::size_t const n = std::size_t(a.size()), m = std::size_t(b.size());
         using index = std::conditional_t<requires { T::size(); }, int, std::size_t>;

@@ -12,8 +12,8 @@
 
 namespace lacuna {
 
-/// A simulation has become unstable, so that its results are meaningless: not-a-number, runaway energy, an overlap
-/// beyond a radius, or a particle that moves more than a tenth of its radius in a step.
+/// A simulation has become unstable, so that its results are meaningless. The causes are not-a-number, runaway energy,
+/// an overlap beyond a radius, or a particle that moves more than a tenth of its radius in a step.
 class unstable_run : public std::runtime_error {
 public:
     /// \param what the complete message

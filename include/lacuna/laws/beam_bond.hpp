@@ -34,7 +34,7 @@ struct beam_bond {
     /// In the bound of the time step, shear has the lever arm d/2 on both sides, whatever the radii.
     static constexpr bool shears_in_the_middle = true;
 
-    /// What one material contributes.
+    /// The input values of one material.
     struct material {
         double young_modulus = 1e9;                                        ///< E, Pa
         double poisson_ratio = 0.25;                                       ///< nu, above -1 and at most 0.5

@@ -11,9 +11,9 @@
 
 namespace lacuna {
 
-/// The paper's bond, which also resists bending, and in space twisting, with the share b of a parallel bond's stiffness
-/// (Potyondy and Cundall 2004, see parallel_bond). b = 0 gives brittle_spring_bond with its compression failure. R =
-/// min(r_i, r_j).
+/// The paper's bond that also resists bending, and in space twisting. Its stiffness against these is the share b of a
+/// parallel bond's (Potyondy and Cundall 2004, see parallel_bond). b = 0 gives brittle_spring_bond with its compression
+/// failure. Below, R is min(r_i, r_j).
 ///
 ///   M_b <- M_b + b k_n R^2 / 3 * bend         in the plane; R^2 / 4 in space
 ///   M_t <- M_t + b k_s R^2 / 2 * twist        in space
@@ -24,7 +24,7 @@ namespace lacuna {
 struct brittle_beam_bond {
     static constexpr bool carries_moment = true;
 
-    /// What one material contributes (Table 1).
+    /// The input values of one material (the paper's Table 1).
     struct material {
         double normal_stiffness = 1e6;                                     ///< k_n, N/m
         double shear_stiffness = 1e6;                                      ///< k_s, N/m

@@ -101,7 +101,7 @@ struct mohr_coulomb_envelope {
 /// rounding, also after compression failure, because L contains the plastic shortening.
 template <class Envelope = box_envelope, class Area = smaller_particle_area>
 struct brittle_spring_bond_with {
-    /// What one material contributes (Table 1).
+    /// The input values of one material (the paper's Table 1).
     struct material {
         double normal_stiffness = 1e6;                                    ///< k_n, N/m
         double shear_stiffness = 1e6;                                     ///< k_s, N/m

@@ -58,7 +58,7 @@ struct local_damping {
 };
 
 /// Dashpot along the normal of each contact and bond, c = 2 ratio sqrt(k_n m_eff), m_eff = m_i m_j / (m_i + m_j).
-/// A contact's total normal force stays compressive: a rebounding pair separates when the sum of spring and dashpot
+/// A contact's total normal force stays compressive. A rebounding pair separates when the sum of spring and dashpot
 /// force vanishes, not when the overlap does (restitution of reference case 1b "zero force").
 struct viscous_damping {
     struct parameters {

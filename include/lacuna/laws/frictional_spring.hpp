@@ -18,7 +18,7 @@ namespace lacuna {
 /// rounding. L is r_i + r_j. Pairs that touch in the initial packing, and pairs whose bond has broken, have another L,
 /// with which their force starts without a jump. Once such a pair has separated, L is r_i + r_j again.
 struct frictional_spring {
-    /// What one material contributes (Table 1).
+    /// The input values of one material (the paper's Table 1).
     struct material {
         double normal_stiffness = 1e6; ///< k_jn, N/m
         double shear_stiffness = 1e6;  ///< k_js, N/m

@@ -21,11 +21,12 @@ namespace lacuna {
 /// more energy than the contact has stored. The energy lost in this way counts as dissipated. The law treats particles
 /// as spheres in the plane, too.
 ///
-/// With a dashpot (laws/damping.hpp) at the ratio z of critical damping, a collision has the coefficient of restitution
-/// exp(-pi z / sqrt(1 - z^2)) at any speed, as with a linear spring (Tsuji, Tanaka and Ishida 1992, in the closed form
-/// of Antypov and Elliott 2011). This holds if the contact lasts until the overlap is zero: see restitution_damping.
+/// A dashpot (laws/damping.hpp) at the ratio z of critical damping gives a collision the coefficient of restitution
+/// exp(-pi z / sqrt(1 - z^2)) at any speed, as with a linear spring. This holds if the contact lasts until the overlap
+/// is zero: see restitution_damping. The result is due to Tsuji, Tanaka and Ishida (1992), its closed form to Antypov
+/// and Elliott (2011).
 struct hertz_mindlin {
-    /// What one material contributes.
+    /// The input values of one material.
     struct material {
         double young_modulus = 1e9;  ///< E, Pa
         double poisson_ratio = 0.25; ///< nu, above -1 and at most 0.5

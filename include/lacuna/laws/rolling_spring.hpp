@@ -22,7 +22,7 @@ namespace lacuna {
 struct rolling_spring {
     static constexpr bool carries_moment = true;
 
-    /// What one material contributes.
+    /// The input values of one material.
     struct material {
         double normal_stiffness = 1e6; ///< k_n, N/m
         double shear_stiffness = 1e6;  ///< k_s, N/m

@@ -39,9 +39,8 @@ public:
     /// 0 if fixed.
     void set_mobility(std::size_t k, int axis, double mobility) { root_mobility_[k][std::size_t(axis)] = std::sqrt(mobility); }
 
-    /// Adds a spring between two particles. It has a stiffness along the normal, one across it that acts with lever
-    /// arms to the centres, and a prestress stiffness (force over distance) across it without lever arms. Units: N/m,
-    /// m.
+    /// Adds a spring between two particles, with stiffnesses along the normal and across it, N/m. The shear stiffness
+    /// acts with lever arms to the centres, m; the prestress stiffness (force over distance) has no lever arms.
     void add_pair(std::size_t i, std::size_t j, point const& normal, double normal_stiffness, double shear_stiffness,
                   double prestress, double lever_i, double lever_j) {
         auto const axes = frame(normal);

@@ -11,11 +11,11 @@ namespace lacuna {
 
 /// Search by cells, the default: cost and memory are proportional to the number of particles, whatever their extent.
 ///
-/// A counting sort puts particles into cells as wide as the reach of two of them, so that the partners of a particle
-/// are in its own cell and the adjacent ones. There is a grid for each factor of two of the reach that occurs. It
-/// covers the particles of that size alone, so that a huge particle makes neither the cells nor the grids of others
-/// larger. If a grid would have far more cells than particles (one has flown away), rows of cells share a table by
-/// their hash. Buffers are reused: a call of the same size allocates nothing.
+/// A counting sort puts particles into cells as wide as the reach of two of them. So the partners of a particle are in
+/// its own cell and the adjacent ones. There is a grid for each factor of two of the reach that occurs. It covers the
+/// particles of that size alone, so that a huge particle makes neither the cells nor the grids of others larger. If a
+/// grid would have far more cells than particles (one has flown away), rows of cells share a table by their hash.
+/// Buffers are reused: a call of the same size allocates nothing.
 template <class Real, int Dim>
 class cell_grid {
     static_assert(Dim == 2 || Dim == 3);

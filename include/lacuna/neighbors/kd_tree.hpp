@@ -28,9 +28,9 @@ struct tree_points {
 };
 
 /// Receives the points that the tree finds around point i. It takes the pairs in which i is the larger particle (of
-/// equal ones the first), so that no particle has to search as far as the largest one reaches. The members are those
-/// that nanoflann requires of a result set, in version 1.4 as well as from 1.5 on, where search parameters and result
-/// types differ.
+/// equal ones the first). So no particle has to search as far as the largest one reaches. The members are those that
+/// nanoflann requires of a result set, in version 1.4 as well as from 1.5 on, where search parameters and result types
+/// differ.
 template <class Real, int Dim>
 class tree_row {
 public:

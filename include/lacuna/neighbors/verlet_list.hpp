@@ -147,8 +147,8 @@ public:
         own_.reset(points.size(), parameters_.skin / 2);
         build_with_own(points, radii);
     }
-    /// Builds the list for use with due(): particles that have moved much further than all others since the last build
-    /// may move further than skin / 2 before the next one.
+    /// Builds the list for use with due(). Particles that have moved much further than all others since the last build
+    /// may then move further than skin / 2 before the next one.
     void build_for_motion(points_type const& points, std::span<real_type const> radii) {
         real_type largest = 0;
         for (real_type const r : radii) largest = std::max(largest, r);

@@ -79,8 +79,8 @@ private:
 
 /// Lock of one process on a directory, or on a part of its content: a file that exists while the lock is held and
 /// records its owner. The lock itself is the system's (flock), so that it ends with its process, killed or not. On a
-/// file system without locks, the file alone is the lock: an owner that no longer runs has lost it, and two processes
-/// that come at the same instant may both get it. Network file systems lock across hosts if their servers do.
+/// file system without locks, the file alone is the lock. Then an owner that no longer runs has lost it, and two
+/// processes that come at the same instant may both get it. Network file systems lock across hosts if their servers do.
 class directory_lock {
 public:
     enum class outcome { taken, held_by_another, failed };
