@@ -68,11 +68,11 @@ inline std::string_view trimmed(std::string_view text) {
 }
 
 /// The text with the letters A to Z in lower case.
-inline std::string small_letters(std::string_view text) {
-    std::string small(text);
-    for (char& c : small)
+inline std::string lower_case(std::string_view text) {
+    std::string lower(text);
+    for (char& c : lower)
         if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
-    return small;
+    return lower;
 }
 
 /// The words of a line, separated by blanks.
@@ -140,11 +140,11 @@ inline std::string odd_character(std::string_view word) {
 /// The rule for the refusal of a word that is not a number. It says what is wrong with the word if that is known.
 inline std::string number_rule(std::string_view word) {
     if (std::string const odd = odd_character(word); !odd.empty()) return "a number; it has " + odd;
-    std::string const small = small_letters(word);
-    auto const has = [&](std::string_view marks) { return small.find_first_of(marks) != small.npos; };
+    std::string const lower = lower_case(word);
+    auto const has = [&](std::string_view marks) { return lower.find_first_of(marks) != lower.npos; };
     bool const digits = has("0123456789");
-    if (digits && small.find("0x") != small.npos) return "a decimal number, not a hexadecimal one";
-    if (digits && small.find_first_not_of("0123456789+-.d") == small.npos) return "a number with \"e\" before its exponent, not \"d\"";
+    if (digits && lower.find("0x") != lower.npos) return "a decimal number, not a hexadecimal one";
+    if (digits && lower.find_first_not_of("0123456789+-.d") == lower.npos) return "a number with \"e\" before its exponent, not \"d\"";
     if (digits && has("'_")) return "a number without marks between thousands";
     if (digits && has(",")) return "a number with a decimal point, without commas";
     return "a number";

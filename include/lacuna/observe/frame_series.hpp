@@ -36,8 +36,8 @@ public:
             if (sim.steps() > 0 && (latest_ < 0 || goes_back)) {
                 auto const part = writer_.resume(sim, prefix_);
                 latest_ = sim.steps();
-                if (part.has_present) last_ = sim.steps();
-                if (part.is_there) return;
+                if (part.has_current) last_ = sim.steps();
+                if (part.exists) return;
             }
         }
         write(sim);
@@ -74,8 +74,8 @@ private:
 
 /// The remains of an earlier part of a series.
 struct series_part {
-    bool is_there = false;    ///< it has frames up to the current time
-    bool has_present = false; ///< it has the frame of the current time, too
+    bool exists = false;      ///< it has frames up to the current time
+    bool has_current = false; ///< it has the frame of the current time, too
 };
 
 } // namespace lacuna

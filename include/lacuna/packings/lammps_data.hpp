@@ -54,7 +54,7 @@ public:
             auto const words = words_of(line);
             if (words.empty()) {
                 if (section_.empty()) take_units(comment_);
-            } else if (char const first = small_letters(words[0])[0]; first >= 'a' && first <= 'z') {
+            } else if (char const first = lower_case(words[0])[0]; first >= 'a' && first <= 'z') {
                 section(words);
             } else {
                 section_.empty() ? header_.read(words, where()) : row(words);

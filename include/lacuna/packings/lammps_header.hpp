@@ -45,7 +45,7 @@ inline constexpr std::array<lammps_units, 4> lammps_known_units{{{"si", 1, 1, 1,
 /// \throws std::invalid_argument for units that cannot be converted to SI, or are unknown
 inline std::optional<lammps_units> lammps_units_named(std::string const& line, std::string const& where) {
     std::vector<std::string> words(1);
-    for (char const c : small_letters(line)) {
+    for (char const c : lower_case(line)) {
         if ((c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_')
             words.back() += c;
         else if (!words.back().empty())

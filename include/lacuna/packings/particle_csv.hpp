@@ -114,7 +114,7 @@ private:
     /// Our name of the column with a given heading; empty for an unknown column. \param unit receives the unit in
     /// brackets
     static std::string plain_name(std::string const& cell, std::string& unit) {
-        std::string name = small_letters(cell);
+        std::string name = lower_case(cell);
         unit = csv_cut_unit(name);
         std::string const plain = csv_plain_name(name);
         // In the plane spin and spin.z mean the same; in space spin needs the name of an axis.
@@ -165,7 +165,7 @@ private:
         auto const known = csv_columns<Dim>();
         std::string rule = "a known column";
         if (std::string const odd = odd_character(cell); !odd.empty()) rule += "; it has " + odd;
-        std::string const near = nearest_word(small_letters(cell), known);
+        std::string const near = nearest_word(lower_case(cell), known);
         if (!near.empty()) refuse(where, in_quotes(cell), rule + " (did you mean \"" + near + "\"?)");
         std::string all;
         for (auto const& name : known) all += (all.empty() ? "" : ", ") + name;
