@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# cmake -D CASE=... -D PROGRAM=... -D SCRATCH=... -P check.cmake: runs the program and looks at what it leaves.
+# cmake -D CASE=... -D PROGRAM=... -D SCRATCH=... -P check.cmake: runs the program and checks its output.
 
 cmake_minimum_required(VERSION 3.25)
 
@@ -71,7 +71,7 @@ if(CASE STREQUAL "refusals")
     endif()
   endforeach()
   files("." kept)
-  # What cannot be said on stdout is an error, a reader who has gone is none.
+  # A full disk at stdout is an error; a closed pipe is not.
   find_program(sh sh)
   if(EXISTS /dev/full)
     execute_process(COMMAND "${sh}" -c "'${PROGRAM}' --help >/dev/full" WORKING_DIRECTORY "${SCRATCH}" RESULT_VARIABLE result ERROR_VARIABLE err)

@@ -23,43 +23,44 @@ namespace {
 
 enum exit_status { done = 0, failed = 1, bad_request = 2 };
 
-struct wish {
+/// The content of the command line.
+struct command {
     uniaxial::request request;
     std::string specimen = "random", out = ".";
     bool json = false, force = false, help = false;
 };
 
-/// A number of the request: its option, and what it is.
-struct number {
+/// A number of the request with its option.
+struct number_option {
     char const* option;
     double uniaxial::request::*member;
     char const* meaning;
 };
 using request = uniaxial::request;
-constexpr number numbers[] = {
+constexpr number_option numbers[] = {
     {"--width", &request::width, "of the specimen, m"},
     {"--height", &request::height, "of the specimen, m"},
     {"--radius", &request::radius, "mean radius of the discs, m"},
     {"--thickness", &request::thickness, "of the specimen, m"},
-    {"--bond-modulus", &request::bond_modulus, "k_n over the thickness, Pa"},
-    {"--shear-ratio", &request::shear_ratio, "k_s over k_n"},
+    {"--bond-modulus", &request::bond_modulus, "k_n divided by the thickness, Pa"},
+    {"--shear-ratio", &request::shear_ratio, "k_s divided by k_n"},
     {"--tensile-strength", &request::tensile_strength, "of bonds, Pa"},
     {"--cohesion", &request::cohesion, "of bonds, Pa"},
     {"--internal-friction", &request::internal_friction, "of bonds, tan phi"},
     {"--friction", &request::friction, "of contacts and platens"},
-    {"--weibull-modulus", &request::weibull_modulus, "of the strengths' scatter; inf: none"},
-    {"--strain", &request::strain, "at which the run ends at the latest"},
+    {"--weibull-modulus", &request::weibull_modulus, "scatter of the strengths; inf: none"},
+    {"--strain", &request::strain, "final strain; the run may end earlier"},
 };
 
 double read_number(std::string const& option, std::string const& word) {
-    // Infinity is a number here: the request knows where it may stand.
+    // The request decides which numbers may be infinite.
     auto const value = lacuna::number_of(word);
     return value && std::isinf(*value) && word.find_first_of("0123456789") == word.npos ? *value : lacuna::read_number(option, word);
 }
 
-/// \throws std::invalid_argument with one line for a request that cannot be met
-wish understand(int argc, char const* const* argv) {
-    wish w;
+/// \throws std::invalid_argument with a message of one line for an invalid command line
+command parse_command_line(int argc, char const* const* argv) {
+    command w;
     auto& q = w.request;
     std::string words[std::size(numbers)], seed, steps;
     CLI::App app("Uniaxial compression of a bonded specimen between two platens.\n"
@@ -72,12 +73,12 @@ wish understand(int argc, char const* const* argv) {
     for (std::size_t k = 0; k < std::size(numbers); ++k)
         app.add_option(numbers[k].option, words[k], std::string(numbers[k].meaning) + " (" + lacuna::to_text(q.*numbers[k].member) + ")")
             ->type_name("NUMBER");
-    app.add_option("--seed", seed, "of packing and strengths, a whole number (" + std::to_string(q.seed) + ")")->type_name("N");
-    app.add_option("--steps", steps, "to get to the strain, a whole number (" + std::to_string(q.steps) + ")")->type_name("N");
+    app.add_option("--seed", seed, "of the packing and the strengths, a whole number (" + std::to_string(q.seed) + ")")->type_name("N");
+    app.add_option("--steps", steps, "number of steps to the final strain (" + std::to_string(q.steps) + ")")->type_name("N");
     app.add_option("--out", w.out, "directory for the files (.)")->type_name("DIR");
-    app.add_flag("--elastic", q.elastic, "bonds that never break: moduli alone");
-    app.add_flag("--force", w.force, "replace the results that are in DIR");
-    app.add_flag("--json", w.json, "the figures as JSON on stdout");
+    app.add_flag("--elastic", q.elastic, "bonds never break; measures only the moduli");
+    app.add_flag("--force", w.force, "replace the results in DIR");
+    app.add_flag("--json", w.json, "print the results as JSON");
     app.set_version_flag("--version", programs::version_text("uniaxial"));
     if (!programs::parse(app, argc, argv)) {
         w.help = true;
@@ -97,7 +98,7 @@ wish understand(int argc, char const* const* argv) {
 
 int main(int argc, char** argv) {
     try {
-        wish const w = understand(argc, argv);
+        command const w = parse_command_line(argc, argv);
         if (w.help) return done;
         lacuna::watch_stop_signals();
         lacuna::run_directory directory(w.out, "--out", {"uniaxial.csv", "uniaxial.json", "uniaxial.png", "uniaxial.svg"},
@@ -120,7 +121,7 @@ int main(int argc, char** argv) {
             uniaxial::print(stdout, outcome);
         programs::finish_output();
         if (outcome.ended.rfind("stopped", 0) != 0) return done;
-        std::fprintf(stderr, "uniaxial: %s after step %lld; what there is is in %s\n", outcome.ended.c_str(), outcome.steps,
+        std::fprintf(stderr, "uniaxial: %s after step %lld; results so far are in %s\n", outcome.ended.c_str(), outcome.steps,
                      directory.file("uniaxial.csv").c_str());
         return 128 + lacuna::stop_signal();
     } catch (std::invalid_argument const& bad) {

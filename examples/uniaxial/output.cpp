@@ -12,7 +12,7 @@ namespace uniaxial {
 
 namespace {
 
-/// Of a quantity that should be zero, its value.
+/// Relative error; for a reference of zero the value itself.
 double error_of(figure const& f) { return std::fabs(*f.reference != 0 ? f.value / *f.reference - 1 : f.value); }
 
 } // namespace
@@ -56,7 +56,7 @@ void print(std::FILE* out, outcome const& o) {
 
 void write_files(lacuna::run_directory const& directory, outcome const& o) {
     save_picture(directory.file("uniaxial"), o);
-    // Last, because its presence says that the run has ended.
+    // Last, because its presence means that the run has ended.
     lacuna::whole_file json(directory.file("uniaxial.json"));
     json.write(to_json(o));
     json.commit();

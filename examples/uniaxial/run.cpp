@@ -25,9 +25,9 @@ struct model : lacuna::default_model<2> {
 using simulation = lacuna::simulation<model>;
 using packing = lacuna::packing<double, 2>;
 
-constexpr double density = 2500;    // kg/m^3; a static result does not depend on it
-constexpr double widest_gap = 0.1;  // that a bond spans, of the smaller radius
-constexpr int rows_of_a_run = 400;
+constexpr double density = 2500;    // kg/m^3; static results do not depend on it
+constexpr double widest_gap = 0.1;  // of a bonded pair, divided by the smaller radius
+constexpr int rows_per_run = 400;
 
 int chains_of(request const& q) { return 1 + int((q.width - 2 * q.radius) / (std::sqrt(3.0) * q.radius) + 1e-9); }
 
@@ -67,14 +67,14 @@ lacuna::simulation_parameters<model> settings(request const& q, packing const& s
     p.thickness = q.thickness;
     p.damping = {0.7};
     p.safety = 0.5;
-    p.follow_critical_step = false; // the test is so many steps long
+    p.follow_critical_step = false; // the number of steps fixes the length of the test
     p.walls = lacuna::platens<lacuna::wall<model::contact_law, 2>>(specimen, 1, p.materials[0].contact);
     if (!q.elastic && std::isfinite(q.weibull_modulus))
         p.bonds = lacuna::weibull_strengths{q.weibull_modulus, q.seed}.draw(specimen.bonds);
     return p;
 }
 
-/// Slope of the line through pairs of values, by least squares.
+/// Slope of a line through pairs of values, by least squares.
 class line_fit {
 public:
     void add(double x, double y) {
@@ -90,8 +90,8 @@ private:
     double count_ = 0, x_ = 0, y_ = 0, xx_ = 0, xy_ = 0;
 };
 
-/// Shortening of the middle half, along the load and across it.
-std::array<double, 2> strains_of_the_middle(simulation const& sim, packing const& before) {
+/// Strains of the middle half, along the load and across it, positive in compression.
+std::array<double, 2> middle_strains(simulation const& sim, packing const& before) {
     auto const ends = lacuna::extent(before, 1);
     double const quarter = 0.25 * (ends[1] - ends[0]);
     std::array<line_fit, 2> fit;
@@ -192,29 +192,29 @@ outcome run(request const& asked, lacuna::growing_file* rows, programs::terminal
     test.load(sim);
     lacuna::crack_record<lacuna::break_event<2>> cracks;
     sample row;
-    auto const tell = [&] {
+    auto const add_row = [&] {
         o.curve.push_back(row);
         if (rows) rows->add(row_of(row));
     };
     if (rows) rows->begin();
-    tell();
-    programs::terminal_progress nobody(false);
-    auto& shown = progress ? *progress : nobody;
+    add_row();
+    programs::terminal_progress hidden(false);
+    auto& shown = progress ? *progress : hidden;
     shown.begin(double(asked.steps), sim.size());
     std::size_t counted = 0;
     double highest = 0;
-    long long const interval = std::max(1LL, asked.steps / rows_of_a_run);
+    long long const interval = std::max(1LL, asked.steps / rows_per_run);
     while (sim.steps() < asked.steps) {
         sim.run(std::min(interval, asked.steps - sim.steps()), cracks, shown, lacuna::stop_on_signal{});
         auto const state = test.state(sim);
-        auto const middle = strains_of_the_middle(sim, specimen);
+        auto const middle = middle_strains(sim, specimen);
         for (; counted < cracks.events().size(); ++counted)
             ++(cracks.events()[counted].mode == lacuna::bond_state::broken_in_tension ? row.tension_cracks : row.shear_cracks);
         row.strain = state.strain[1];
         row.stress = state.stress[1];
         row.middle_strain = middle[0];
         row.lateral_strain = middle[1];
-        tell();
+        add_row();
         highest = std::max(highest, row.stress);
         if (counted > 0 && row.stress < 0.5 * highest) {
             o.ended = "failure";

@@ -9,7 +9,7 @@
 #include "uniaxial/uniaxial.hpp"
 
 /// \file
-/// The program's own compression test on lattices, against the moduli of the triangular lattice.
+/// The compression test of the program uniaxial on lattices, against the moduli of the triangular lattice.
 
 namespace {
 
@@ -18,7 +18,7 @@ uniaxial::request lattice(double shear_ratio) {
     q.specimen = uniaxial::specimen_kind::lattice;
     q.radius = 1e-3;
     q.width = 0.02;
-    q.height = 0.1; // the ends, where every second chain is shorter, are far from the middle half
+    q.height = 0.1; // long: every second chain is shorter, and the ends must be far from the middle half
     q.shear_ratio = shear_ratio;
     q.elastic = true;
     q.friction = 0;
@@ -29,7 +29,7 @@ uniaxial::request lattice(double shear_ratio) {
 
 } // namespace
 
-TEST_CASE("a lattice between platens shows the lattice's moduli", "[moduli]") {
+TEST_CASE("a lattice between platens has the moduli of the lattice", "[moduli]") {
     for (std::string const ratio : {"1", "0.5", "0"}) {
         auto const id = "3a.moduli_ks/kn=" + ratio;
         double const ks = std::stod(ratio), modulus = reference(id, "E"), poisson = reference(id, "nu");
@@ -37,8 +37,8 @@ TEST_CASE("a lattice between platens shows the lattice's moduli", "[moduli]") {
         CHECK_THAT(uniaxial::lattice_poisson_ratio(ks), WithinAbs(poisson, 1e-9));
         auto const q = lattice(ks);
         auto const o = uniaxial::run(q);
-        // 11 chains: ten layers of the lattice and the outer chains' other halves carry k_n of a diameter more; the
-        // outline is a diameter wider than the layers.
+        // 11 chains are ten layers of the lattice. The outer halves of the outer chains add k_n of one diameter, and
+        // the outline is one diameter wider than the layers.
         double const layers = 10 * std::sqrt(0.75);
         INFO("k_s / k_n = " << ratio);
         CHECK_THAT(o.young_modulus / q.bond_modulus, WithinRel((layers * modulus + 1) / (layers + 1), 1e-4));
@@ -47,9 +47,9 @@ TEST_CASE("a lattice between platens shows the lattice's moduli", "[moduli]") {
     }
 }
 
-TEST_CASE("a specimen without scatter in its bonds cracks where its strength says", "[strength]") {
-    // Twice the strengths of all bonds, twice the strength of the specimen, at twice the strain: all of it is linear but
-    // for contacts between its parts and the turn of its bonds.
+TEST_CASE("a specimen with equal bonds is twice as strong if its bonds are", "[strength]") {
+    // Twice the strength of all bonds gives twice the strength of the specimen at twice the strain. Everything is
+    // linear except contacts between its parts and the rotation of its bonds.
     uniaxial::request q;
     q.width = 0.012;
     q.height = 0.024;
