@@ -25,23 +25,23 @@ void add_size(outcome& o, Simulation const& sim) {
     o.steps = sim.steps();
 }
 
-/// A run that ends at time `last` is now at time `now`.
+/// Shows the progress of a run that ends at time `last` and is now at time `now`.
 template <class Simulation>
 void show(programs::terminal_progress& progress, Simulation const& sim, double now, double last) {
     if (sim.steps() == 1) progress.begin(1, sim.size());
     progress.expect(double(sim.steps()) * last / now);
     progress.passed(sim.steps());
 }
-/// A flow becomes steady: its error falls by the same factor in each step, from 1 to `least`.
+/// Shows the progress of a flow whose error falls by a constant factor per step, from 1 to `least`.
 template <class Simulation>
 void show_error(programs::terminal_progress& progress, Simulation const& sim, double error, double least) {
     double const share = std::clamp(std::log(error) / std::log(least), 1e-3, 1.0);
     show(progress, sim, std::isfinite(share) ? share : 1e-3, 1);
 }
 
-/// Error of the whole curve: the largest of its points' relative ones.
+/// Adds the point of a curve with the largest relative error.
 void add_worst(outcome& o, std::string const& name, outcome_curve const& c) {
-    if (c.points.empty()) return; // stopped before the first one
+    if (c.points.empty()) return; // stopped before the first point
     outcome_curve::point worst = c.points.front();
     auto const error = [](outcome_curve::point const& p) { return std::fabs(p.value / p.reference - 1); };
     for (auto const& p : c.points)
@@ -57,7 +57,7 @@ outcome run_terzaghi(bool quick, programs::terminal_progress& progress) {
     setup.cells = quick ? 1 : 3;
     setup.slowness = quick ? 400 : 800;
     terzaghi_column column(setup);
-    consolidation const exact(consolidation::body::slab, 0);
+    consolidation const exact(consolidation::shape::slab, 0);
     fluid_account fluid(column.sim().flow().network(), setup.medium.bulk_modulus);
 
     outcome o;
@@ -67,10 +67,10 @@ outcome run_terzaghi(bool quick, programs::terminal_progress& progress) {
     outcome_curve settlement{"degree of consolidation U", {}}, base{"pressure at the base / load", {}};
     constexpr double last = 1;
     for (double const time : logarithmic_times(0.01, last, 41)) {
-        while (o.goes_on() && column.time() < time * (1 - 1e-9)) {
+        while (o.should_continue() && column.time() < time * (1 - 1e-9)) {
             column.sim().step();
             show(progress, column.sim(), column.time(), last);
-            fluid.enter(column.sim().flow().network(), column.sim().time_step());
+            fluid.add_step(column.sim().flow().network(), column.sim().time_step());
         }
         if (column.sim().steps() == 0) break;
         double const now = column.time(), u = column.consolidation_degree();
@@ -98,7 +98,7 @@ outcome run_mandel(bool quick, programs::terminal_progress& progress) {
     setup.cells = quick ? 1 : 6;
     mandel_slab slab(setup);
     auto const& medium = slab.medium();
-    consolidation const exact(consolidation::body::slab, medium.mean_coupling(), setup.ramp);
+    consolidation const exact(consolidation::shape::slab, medium.mean_coupling(), setup.ramp);
     fluid_account fluid(slab.sim().flow().network(), setup.medium.bulk_modulus);
 
     outcome o;
@@ -110,10 +110,10 @@ outcome run_mandel(bool quick, programs::terminal_progress& progress) {
     double highest = 0, when = 0;
     double const last = quick ? 0.2 : 0.3;
     for (double const time : logarithmic_times(0.02, last, 33)) {
-        while (o.goes_on() && slab.time() < time * (1 - 1e-9)) {
+        while (o.should_continue() && slab.time() < time * (1 - 1e-9)) {
             slab.step();
             show(progress, slab.sim(), slab.time(), last);
-            fluid.enter(slab.sim().flow().network(), slab.sim().time_step());
+            fluid.add_step(slab.sim().flow().network(), slab.sim().time_step());
             if (slab.sim().steps() % 20 != 0 || slab.time() < 0.02) continue;
             double const p = slab.middle_pressure();
             if (p > highest) {
@@ -143,7 +143,7 @@ outcome run_cryer(bool quick, programs::terminal_progress& progress) {
     setup.medium.shear_stiffness = setup.medium.normal_stiffness;
     cryer_disc disc(setup);
     auto const& medium = disc.medium();
-    consolidation const exact(consolidation::body::disc, medium.mean_coupling(), 0, 60);
+    consolidation const exact(consolidation::shape::disc, medium.mean_coupling(), 0, 60);
     fluid_account fluid(disc.sim().flow().network(), setup.medium.bulk_modulus);
 
     outcome o;
@@ -155,10 +155,10 @@ outcome run_cryer(bool quick, programs::terminal_progress& progress) {
     double highest = 0, when = 0;
     double const last = quick ? 0.1 : 0.3;
     for (double const time : logarithmic_times(0.005, last, 34)) {
-        while (o.goes_on() && disc.time() < time * (1 - 1e-9)) {
+        while (o.should_continue() && disc.time() < time * (1 - 1e-9)) {
             disc.sim().step();
             show(progress, disc.sim(), disc.time(), last);
-            fluid.enter(disc.sim().flow().network(), disc.sim().time_step());
+            fluid.add_step(disc.sim().flow().network(), disc.sim().time_step());
             double const p = disc.middle_pressure();
             if (p <= highest) continue;
             highest = p;
@@ -180,50 +180,15 @@ outcome run_cryer(bool quick, programs::terminal_progress& progress) {
     return o;
 }
 
-outcome run_darcy(bool quick, programs::terminal_progress& progress) {
-    outcome o;
-    o.name = "darcy";
-    o.x_label = "x / length";
-    o.logarithmic = false;
+namespace {
 
-    lattice_medium const medium;
-    lattice_flow lattice(quick ? 8 : 16, 2, medium, 1e3);
-    constexpr double settled = 1e-10;
-    auto const lattice_error = [&] { return std::fabs(lattice.permeability(0) / lattice.permeability(1) - 1); };
-    do {
-        lattice.sim().step();
-        show_error(progress, lattice.sim(), lattice_error(), settled);
-    } while (o.goes_on() && !(lattice_error() < settled));
-    if (o.stopped) {
-        add_size(o, lattice.sim());
-        return o;
-    }
-    o.add("permeability_lattice/C", lattice.permeability(1) / medium.conductance,
-          medium.permeability() / medium.conductance);
+constexpr double steady_error = 1e-10; // relative difference between inflow and outflow of a steady state
 
-    darcy_setup setup;
-    if (quick) setup.length = 12, setup.height = 10;
-    darcy_body body(setup);
-    o.title = "Darcy: steady flow from left to right through a random packing of bonded discs";
-    fluid_account fluid(body.sim().flow().network(), setup.medium.bulk_modulus);
-    auto const body_error = [&] { return std::fabs(body.outflow() / body.inflow() - 1); };
-    do {
-        body.sim().step();
-        fluid.enter(body.sim().flow().network(), body.sim().time_step());
-        show_error(progress, body.sim(), body_error(), settled);
-    } while (o.goes_on() && !(body_error() < settled) && body.sim().steps() < 2000);
-    if (o.stopped) {
-        add_mass(o, fluid);
-        add_size(o, body.sim());
-        return o;
-    }
-    auto const steady = body.solve();
-    o.add("permeability_random", body.permeability(body.inflow()), body.permeability(steady.flow));
-    o.add("outflow/inflow", body.outflow() / body.inflow(), 1);
-
+/// Mean pressures of slices across the flow, from the run and from the direct solution. Also adds the largest error.
+outcome_curve pressure_profile(outcome& o, darcy_body const& body, darcy_body::steady_state const& steady, int slices) {
     auto const& net = body.sim().flow().network();
+    double const inlet = body.setup().pressure;
     outcome_curve profile{"mean pressure across the flow / pressure on the left", {}};
-    int const slices = quick ? 8 : 20;
     std::vector<outcome_curve::point> sum(std::size_t(slices), {0, 0, 0});
     std::vector<double> area(std::size_t(slices), 0.0);
     double farthest = 0, left = body.packing().position.front()[0];
@@ -233,15 +198,64 @@ outcome run_darcy(bool quick, programs::terminal_progress& progress) {
         auto const slice = std::size_t(std::clamp(int(along * slices), 0, slices - 1));
         area[slice] += net.size[k];
         sum[slice].x += net.size[k] * along;
-        sum[slice].value += net.size[k] * net.pressure[k] / setup.pressure;
-        sum[slice].reference += net.size[k] * steady.pressure[k] / setup.pressure;
-        farthest = std::max(farthest, std::fabs(net.pressure[k] - steady.pressure[k]) / setup.pressure);
+        sum[slice].value += net.size[k] * net.pressure[k] / inlet;
+        sum[slice].reference += net.size[k] * steady.pressure[k] / inlet;
+        farthest = std::max(farthest, std::fabs(net.pressure[k] - steady.pressure[k]) / inlet);
     }
     for (std::size_t s = 0; s < sum.size(); ++s)
         profile.points.push_back({sum[s].x / area[s], sum[s].value / area[s], sum[s].reference / area[s]});
     o.add("largest_pressure_error/pressure", farthest, 0);
+    return profile;
+}
+
+/// Adds the permeability of the triangular lattice. \return false if a signal stopped it
+bool add_lattice_permeability(outcome& o, bool quick, programs::terminal_progress& progress) {
+    lattice_medium const medium;
+    lattice_flow lattice(quick ? 8 : 16, 2, medium, 1e3);
+    auto const lattice_error = [&] { return std::fabs(lattice.permeability(0) / lattice.permeability(1) - 1); };
+    do {
+        lattice.sim().step();
+        show_error(progress, lattice.sim(), lattice_error(), steady_error);
+    } while (o.should_continue() && !(lattice_error() < steady_error));
+    if (o.stopped) {
+        add_size(o, lattice.sim());
+        return false;
+    }
+    o.add("permeability_lattice/C", lattice.permeability(1) / medium.conductance,
+          medium.permeability() / medium.conductance);
+    return true;
+}
+
+} // namespace
+
+outcome run_darcy(bool quick, programs::terminal_progress& progress) {
+    outcome o;
+    o.name = "darcy";
+    o.x_label = "x / length";
+    o.logarithmic = false;
+    if (!add_lattice_permeability(o, quick, progress)) return o;
+
+    darcy_setup setup;
+    if (quick) setup.length = 12, setup.height = 10;
+    darcy_body body(setup);
+    o.title = "Darcy: steady flow from left to right through a random packing of bonded discs";
+    fluid_account fluid(body.sim().flow().network(), setup.medium.bulk_modulus);
+    auto const body_error = [&] { return std::fabs(body.outflow() / body.inflow() - 1); };
+    do {
+        body.sim().step();
+        fluid.add_step(body.sim().flow().network(), body.sim().time_step());
+        show_error(progress, body.sim(), body_error(), steady_error);
+    } while (o.should_continue() && !(body_error() < steady_error) && body.sim().steps() < 2000);
+    if (o.stopped) {
+        add_mass(o, fluid);
+        add_size(o, body.sim());
+        return o;
+    }
+    auto const steady = body.solve();
+    o.add("permeability_random", body.permeability(body.inflow()), body.permeability(steady.flow));
+    o.add("outflow/inflow", body.outflow() / body.inflow(), 1);
+    o.curves = {pressure_profile(o, body, steady, quick ? 8 : 20)};
     add_mass(o, fluid);
-    o.curves = {profile};
     o.field = field_of(body.sim(), 0, "steady state");
     add_size(o, body.sim());
     return o;

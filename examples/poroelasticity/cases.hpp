@@ -6,8 +6,9 @@
 
 namespace poroelasticity {
 
-/// \name Runs of the cases. \param quick a coarse body and a short run: the same code in a second
-/// \param progress is told how far the run is
+/// \name Runs of the cases
+/// \param quick a coarse model and a short run: the same code in a second
+/// \param progress display of the progress
 /// \{
 outcome run_terzaghi(bool quick, programs::terminal_progress& progress);
 outcome run_mandel(bool quick, programs::terminal_progress& progress);

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# cmake -D CASE=... -D PROGRAM=... -D SCRATCH=... -P check.cmake: runs the program and looks at what it leaves.
+# cmake -D CASE=... -D PROGRAM=... -D SCRATCH=... -P check.cmake: runs the program and checks its output.
 
 cmake_minimum_required(VERSION 3.25)
 
@@ -74,7 +74,7 @@ if(CASE STREQUAL "refusals")
   refused("--out" --case darcy --out kept/inside)
   call(0 --help)
   files("." kept)
-  # What cannot be said on stdout is an error, a reader who has gone is none.
+  # A full disk at stdout is an error; a closed pipe is not.
   find_program(sh sh)
   if(EXISTS /dev/full)
     execute_process(COMMAND "${sh}" -c "'${PROGRAM}' --case darcy --quick --json --out full >/dev/full" WORKING_DIRECTORY "${SCRATCH}" RESULT_VARIABLE result ERROR_VARIABLE err)
@@ -110,7 +110,7 @@ elseif(CASE STREQUAL "files")
     if(NOT magic STREQUAL "89504e47")
       message(FATAL_ERROR "${case}.png is no PNG")
     endif()
-    # Once more into the same directory, if that is asked for, and the same numbers.
+    # A second run into the same directory is refused; with --force it gives the same numbers.
     file(SHA256 "${SCRATCH}/${case}/${case}.csv" first)
     call(2 --case ${case} --quick --out ${case})
     if(NOT err MATCHES "^poroelasticity: --out = .${case}.: [^\n]*--force[^\n]*\n$")
@@ -125,7 +125,7 @@ elseif(CASE STREQUAL "files")
   endforeach()
 
 elseif(CASE STREQUAL "stopped")
-  # By SIGTERM, in the middle: what there is, marked; and another case may use the directory meanwhile, the same may not.
+  # SIGTERM in the middle of a run leaves marked results. Meanwhile a second run of the same case is refused.
   find_program(sh sh)
   foreach(case IN ITEMS terzaghi mandel cryer darcy)
     execute_process(COMMAND "${sh}" -c "'${PROGRAM}' --case ${case} --out out & \
@@ -145,7 +145,7 @@ kill -TERM $!; wait $!; echo first $?"
   endforeach()
   files(out cryer-stopped.json cryer.csv darcy-stopped.json darcy.csv mandel-stopped.json mandel.csv terzaghi-stopped.json
     terzaghi.csv)
-  # Then only the case's own files are replaced.
+  # --force replaces only the files of its case.
   call(0 --case darcy --quick --out out --force)
   files(out cryer-stopped.json cryer.csv darcy.csv darcy.png mandel-stopped.json mandel.csv terzaghi-stopped.json terzaghi.csv)
 

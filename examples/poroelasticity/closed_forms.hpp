@@ -7,28 +7,28 @@
 #include <vector>
 
 /// \file
-/// Closed forms of Terzaghi, Mandel and Cryer (disc), as series over time; nothing of the library is used.
+/// Closed forms of Terzaghi, Mandel and Cryer (in the plane) as series. They use nothing of the library.
 
 namespace poroelasticity {
 
-/// Drained bodies of unit half width or radius that start at pressure 1: README.md derives
+/// A slab of unit half width or a disc of unit radius, drained at its rim, that starts at pressure 1. README.md derives
 ///
 ///   dp/dT + h d(mean p)/dT = laplacian(p),   p = 0 at the rim,   p = 1 at T = 0,
 ///
-/// with h = 0 for Terzaghi's column and h = gamma G / K for Mandel's slab and Cryer's disc. Its modes are
-/// f(a x) - f(a), with f the cosine for the slab and Bessel's J_0 for the disc.
+/// with h = 0 for Terzaghi's column and h = gamma G / K for Mandel's slab and Cryer's disc. The modes are f(a x) -
+/// f(a). f is the cosine for the slab and Bessel's J_0 for the disc. Lengths, times and pressures are dimensionless.
 class consolidation {
 public:
-    enum class body { slab, disc };
+    enum class shape { slab, disc };
 
     /// \param coupling h, >= 0
-    /// \param ramp the load rises linearly within this time T, from pressure 0; 0: at once
-    explicit consolidation(body shape, double coupling, double ramp = 0, int modes = 200)
-        : shape_(shape), ramp_(ramp) {
+    /// \param ramp time T within which the load rises linearly from 0; 0: at once
+    /// \param modes number of terms of the series
+    explicit consolidation(shape of, double coupling, double ramp = 0, int modes = 200) : shape_(of), ramp_(ramp) {
         double const h = coupling;
         double low = 0;
         for (int k = 0; k < modes; ++k) {
-            // One root lies between two extrema of f, where the boundary's condition changes sign.
+            // The boundary condition changes sign between two extrema of f, so one root lies between them.
             double const high = extremum(low);
             double a = k == 0 ? 1e-3 : low, b = high;
             bool const rising = condition(h, b) > 0;
@@ -53,7 +53,7 @@ public:
     struct peak_point {
         double time, pressure;
     };
-    /// The largest pressure in the middle.
+    /// Time and value of the highest pressure in the middle.
     peak_point peak() const {
         double low = ramp_ + 1e-3, high = 0.5;
         for (int i = 0; i < 200; ++i) {
@@ -68,15 +68,16 @@ private:
         double root, weight, mean;
     };
 
-    double f(double a) const { return shape_ == body::slab ? std::cos(a) : std::cyl_bessel_j(0, a); }
-    /// Mean of f(a x) over the body.
+    double f(double a) const { return shape_ == shape::slab ? std::cos(a) : std::cyl_bessel_j(0, a); }
+    /// Mean of f(a x) over the slab or disc.
     double mean_of_f(double a) const {
-        return shape_ == body::slab ? std::sin(a) / a : 2 * std::cyl_bessel_j(1, a) / a;
+        return shape_ == shape::slab ? std::sin(a) / a : 2 * std::cyl_bessel_j(1, a) / a;
     }
+    /// The condition at the rim, whose roots a are the modes.
     double condition(double h, double a) const { return (1 + h) * f(a) - h * mean_of_f(a); }
-    /// The next extremum of f beyond one: a zero of the sine or of J_1.
+    /// The extremum of f after the extremum `from`: a zero of the sine or of J_1.
     double extremum(double from) const {
-        if (shape_ == body::slab) return from + std::numbers::pi;
+        if (shape_ == shape::slab) return from + std::numbers::pi;
         double a = from + 2.5, b = from + 4;
         bool const rising = std::cyl_bessel_j(1, b) > 0;
         for (int i = 0; i < 100; ++i) {
@@ -88,7 +89,7 @@ private:
     void add_mode(double h, double a) {
         double const mean = mean_of_f(a) - f(a);
         // Mean of mode times (mode + h mean(mode)); the latter is f(a x).
-        double const square = shape_ == body::slab
+        double const square = shape_ == shape::slab
                                   ? 0.5 + std::sin(2 * a) / (4 * a)
                                   : std::pow(std::cyl_bessel_j(0, a), 2) + std::pow(std::cyl_bessel_j(1, a), 2);
         modes_.push_back({a, (1 + h) * mean / (square - f(a) * mean_of_f(a)), mean});
@@ -99,14 +100,14 @@ private:
         for (auto const& m : modes_) total += term(m) * decay(m.root * m.root, time);
         return total;
     }
-    /// Mean of exp(-rate (T - s)) over the times s at which the load has risen.
+    /// Mean of exp(-rate (T - s)) over the times s of the ramp, for a load that rises at a constant rate.
     double decay(double rate, double time) const {
         if (!(ramp_ > 0)) return std::exp(-rate * time);
         double const risen = time < ramp_ ? time : ramp_;
         return (std::exp(-rate * (time - risen)) - std::exp(-rate * time)) / (rate * ramp_);
     }
 
-    body shape_;
+    shape shape_;
     double ramp_;
     std::vector<mode> modes_;
 };

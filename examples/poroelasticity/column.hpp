@@ -11,19 +11,18 @@
 #include "porous_model.hpp"
 
 /// \file
-/// A column of the triangular lattice between two lines of symmetry: exactly what an endless body does that is the same
-/// everywhere across.
+/// A column of the triangular lattice between two lines of symmetry. It behaves exactly as a layer without end across.
 
 namespace poroelasticity {
 
-/// Rows of discs, one above the other along `axis`. Both sides are mirrors: even rows begin and end with a disc on the
-/// mirror, half of which belongs to the column; in odd rows the mirror cuts a bond, and a mark, a particle of
-/// practically no size, holds the cut end. The half pores at the mirrors have the right volumes and forces because a
-/// mark has no extent.
+/// Rows of discs, one above the other along `axis`. Both sides are mirrors. Even rows begin and end with a disc on the
+/// mirror, half of which belongs to the column. In odd rows the mirror cuts a bond, and a mark, a particle of
+/// negligible size, holds the cut end. Because a mark has no extent, the half pores at the mirrors have the right
+/// volumes and forces.
 struct column {
     discs packing;
     std::vector<int> row;        ///< of each particle, from 0
-    std::vector<int> side;       ///< of each particle: 0 within, -1 on the near mirror, +1 on the far one
+    std::vector<int> side;       ///< of each particle: 0 inside, -1 on the near mirror, +1 on the far mirror
     int rows, cells, axis;
     double radius;
 
@@ -35,9 +34,12 @@ struct column {
     double share(std::size_t i) const { return side[i] == 0 ? 1.0 : 0.5; }
 };
 
+/// Makes a column.
 /// \param rows odd, so that both ends are rows of whole discs
 /// \param cells width in disc diameters
-/// \param axis the rows follow each other along: 0 for x, 1 for y
+/// \param radius of a disc, m
+/// \param axis direction from row to row: 0 for x, 1 for y
+/// \throws std::invalid_argument for rows or cells out of range
 inline column make_column(int rows, int cells, double radius, int axis) {
     lacuna::require_in("column.rows", rows, 3, 1e6);
     lacuna::require_in("column.cells", cells, 1, 1e6);
@@ -78,15 +80,15 @@ inline column make_column(int rows, int cells, double radius, int axis) {
     return c;
 }
 
-/// How the two ends of a column are closed, and how long the throats there are. The far end is always drained.
+/// Boundary conditions at the two ends of a column, and the length of the throats there. The far end is always drained.
 struct column_ends {
     bool near_drained = false;
     double near_pressure = 0, far_pressure = 0; ///< of the reservoirs "near" and "far", Pa
     bool half_throats = true;                   ///< see halve_surface_throats()
 };
 
-/// Makes the pore network of a column, for simulation::fill_pores(). Of a throat across a mirror half belongs to the
-/// column; it has a mark at one end, so that its own length would be too short by half as well.
+/// Makes the pore network of a column, for simulation::fill_pores(). Half of a throat across a mirror belongs to the
+/// column. A mark at its end makes its length too short by half; this is corrected here.
 inline auto column_pores(column const& c, column_ends const& ends) {
     return [&c, ends](lacuna::points_view<double, 2> points, double const* radii) {
         using lacuna::body_side, lacuna::on_side;
@@ -106,7 +108,7 @@ inline auto column_pores(column const& c, column_ends const& ends) {
     };
 }
 
-/// Holds the particles on the mirrors there, and does not let them turn.
+/// Holds particles on the mirrors at their mirror, and fixes their rotation.
 inline void hold_mirrors(simulator& sim, column const& c) {
     for (std::size_t i = 0; i < sim.size(); ++i) {
         if (c.side[i] == 0) continue;
@@ -117,7 +119,7 @@ inline void hold_mirrors(simulator& sim, column const& c) {
     }
 }
 
-/// Mean pressure of the pores of one layer (between rows `layer` and `layer` + 1), Pa.
+/// Mean pressure of the pores between rows `layer` and `layer` + 1, Pa.
 inline double layer_pressure(simulator const& sim, column const& c, int layer) {
     auto const& net = sim.flow().network();
     double sum = 0, size = 0;

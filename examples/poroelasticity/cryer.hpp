@@ -15,16 +15,16 @@
 
 namespace poroelasticity {
 
-/// A free disc-shaped body under a pressure all around, drained at its rim.
+/// A free, round packing of discs under a pressure all around, drained at its rim.
 struct cryer_setup {
     double radius = 20;          ///< in disc diameters
-    double slowness = 400;       ///< R^2 / c_v over the time that a wave takes through the drained radius
+    double slowness = 400;       ///< R^2 / c_v divided by the travel time of a wave through the drained radius
     lattice_medium medium{};     ///< its conductance is set by `slowness`
-    double strain = 1e-5;        ///< load over the modulus of confined compression
+    double strain = 1e-5;        ///< load divided by the modulus of confined compression
 };
 
-/// All discs of a triangular lattice whose centres are within `radius` of one of them; those on the
-/// outline (fewer than six neighbours) are of the material `outline`.
+/// All discs of a triangular lattice whose centres are within `radius`, m, of one of them. Discs on the outline, with
+/// fewer than six neighbours, have the material `outline`.
 inline discs round_body(double radius, double disc_radius) {
     discs p;
     double const d = 2 * disc_radius, row = std::sqrt(0.75) * d;
@@ -47,7 +47,7 @@ inline discs round_body(double radius, double disc_radius) {
     return p;
 }
 
-/// Pores of a body that is drained all around.
+/// Pores of a packing that is drained all around.
 inline network drained_pores(lacuna::points_view<double, 2> points, double const* radii) {
     auto const everywhere = [](auto const&) { return true; };
     auto net = lacuna::make_pore_network(lacuna::triangulate_body(points, radii), points, radii,
@@ -56,13 +56,13 @@ inline network drained_pores(lacuna::points_view<double, 2> points, double const
     return net;
 }
 
-/// Presses on every edge of a body's outline, half of it on each of its two particles. \param pressure Pa
+/// Applies a pressure to every edge of the outline, half of the force to each of its two particles. \param pressure Pa
 inline void press_outline(simulator& sim, network const& net, double pressure) {
     std::vector<point> force(sim.size());
     auto const points = sim.particles().positions();
     for (std::size_t t = net.interior_throats; t < net.throats(); ++t) {
         auto const i = std::size_t(net.throat_particle[0][t]), j = std::size_t(net.throat_particle[1][t]);
-        // The pore is to the left of the way from i to j, and so is where the force points.
+        // The pore lies to the left of the line from i to j, and the force points there.
         point const half = perpendicular(points[j] - points[i]) * (pressure / 2);
         for (auto k : {i, j}) force[std::size_t(sim.particles().id(k))] += half;
     }
@@ -70,7 +70,7 @@ inline void press_outline(simulator& sim, network const& net, double pressure) {
         if (norm(force[id]) > 0) sim.apply(id, force[id]);
 }
 
-/// The body at the beginning: the fluid carries the whole load, as in terzaghi_column.
+/// The disc at time 0: the fluid carries the whole load, as in terzaghi_column.
 class cryer_disc {
 public:
     explicit cryer_disc(cryer_setup const& s)
@@ -91,10 +91,10 @@ public:
     discs const& packing() const { return packing_; }
     lattice_medium const& medium() const { return medium_; }
     double load() const { return load_; } ///< Pa
-    /// Of the disc as large as the body, m.
+    /// Radius of the circle with the same area as the packing, m.
     double radius() const { return radius_; }
     double time() const { return sim_->time() * medium_.diffusivity() / (radius_ * radius_); }
-    /// Mean pressure of the pores around the middle disc, over the load.
+    /// Mean pressure of the pores around the middle disc, divided by the load.
     double middle_pressure() const {
         double sum = 0;
         for (std::size_t k : middle_) sum += sim_->flow().network().pressure[k];

@@ -18,7 +18,7 @@
 
 namespace poroelasticity {
 
-/// Steady flow from a reservoir on the left to one on the right through a random packing of bonded discs that is held.
+/// Steady flow from a reservoir on the left to one on the right through a random packing of bonded, fixed discs.
 struct darcy_setup {
     double length = 24, height = 16;   ///< in mean disc diameters
     double pressure = 1e3;             ///< of the left reservoir, Pa; 0 on the right
@@ -26,7 +26,7 @@ struct darcy_setup {
     lattice_medium medium{};           ///< disc radius, stiffness, fluid
 };
 
-/// Discs of unequal size (largest over smallest radius 4 : 3), apertures that are wider where discs do not touch.
+/// Discs of unequal size, with a ratio of radii up to 4 : 3. Apertures grow with the gap between discs.
 struct darcy_model : lacuna::default_model<2> {
     using contact_law = lacuna::no_contact;
     using flow = lacuna::implicit_flow;
@@ -55,21 +55,21 @@ public:
     /// Flow out of the left reservoir and into the right one, m^3/s.
     double inflow() const { return sim_.flow().network().sources[0].rate; }
     double outflow() const { return -sim_.flow().network().sources[1].rate; }
-    /// Extent of the body between its outermost centres, m.
+    /// Extent of the packing between its outermost centres, m.
     double extent(int axis) const {
         auto const less = [axis](point const& a, point const& b) { return a[axis] < b[axis]; };
         auto const [low, high] = std::minmax_element(packing_.position.begin(), packing_.position.end(), less);
         return (*high)[axis] - (*low)[axis];
     }
-    /// Permeability over viscosity that a flow stands for, m^2/(s Pa).
+    /// Permeability divided by viscosity that corresponds to a flow, m^2/(s Pa).
     double permeability(double flow) const { return flow * extent(0) / (setup_.pressure * extent(1)); }
 
-    /// The steady pressures, Pa, and the flow, m^3/s, solved at once from the packing: apertures and conductances by
-    /// the formulas, from the distances of the discs.
+    /// Steady pressures, Pa, and flow, m^3/s.
     struct steady_state {
         std::vector<double> pressure;
         double flow = 0;
     };
+    /// Solves the steady state directly: apertures and conductances follow from the distances of the discs.
     steady_state solve() const {
         auto const& net = sim_.flow().network();
         auto const& particles = sim_.particles();
@@ -136,7 +136,7 @@ private:
         p.flow.aperture.gap_factor = 0.5;
         p.flow.conductivity = s.medium.conductance * 2 * s.medium.radius / std::pow(0.05 * s.medium.radius, 3);
         p.flow.skip_ratio = std::numeric_limits<double>::infinity();
-        // A disc's void fills through its throats within about V / (K_f C); the body's length takes its square of that.
+        // The void at one disc fills within about V / (K_f C); diffusion over n discs takes n^2 times as long.
         p.time_step = s.length * s.length * lattice_medium::porosity() * 4 * s.medium.radius * s.medium.radius /
                       (s.medium.bulk_modulus * s.medium.conductance);
         return p;
@@ -146,7 +146,7 @@ private:
     simulator_type sim_;
 };
 
-/// The same through the triangular lattice: a column between reservoirs at both ends.
+/// Steady flow through the triangular lattice: a column between reservoirs at both ends.
 class lattice_flow {
 public:
     lattice_flow(int layers, int cells, lattice_medium const& medium, double pressure)
@@ -158,7 +158,7 @@ public:
     simulator& sim() { return sim_; }
     simulator const& sim() const { return sim_; }
     column const& body() const { return body_; }
-    /// Permeability over viscosity that the flow at an end stands for: 0 near, 1 far; m^2/(s Pa).
+    /// Permeability divided by viscosity from the flow at one end, m^2/(s Pa). \param end 0: near, 1: far
     double permeability(std::size_t end) const {
         return std::fabs(sim_.flow().network().sources[end].rate) * body_.length() / (pressure_ * body_.width());
     }

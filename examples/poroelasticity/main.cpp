@@ -24,18 +24,19 @@ struct request {
     poroelasticity::outcome (*run)(bool quick, programs::terminal_progress& progress) = nullptr;
 };
 
-/// \return nothing to run when only help was asked for \throws std::invalid_argument with one line
-request understand(int argc, char const* const* argv) {
+/// \return a request without `run` if only help or the version was requested
+/// \throws std::invalid_argument with a message of one line
+request parse_command_line(int argc, char const* const* argv) {
     request r;
-    CLI::App app("Poroelasticity of a bonded packing of discs with fluid in its pores, beside the closed forms.\n"
+    CLI::App app("Compares a bonded packing of discs with fluid in its pores with closed forms of poroelasticity.\n"
                  "Writes CASE.csv and CASE.png. Exit status: 0 done, 1 failed, 2 bad request, 128 + number of a signal that stopped it.",
                  "poroelasticity");
     app.failure_message(CLI::FailureMessage::simple);
     app.add_option("--case", r.name, "terzaghi, mandel, cryer or darcy")->required()->type_name("CASE");
     app.add_option("--out", r.out, "directory for the files (.)")->type_name("DIR");
-    app.add_flag("--force", r.force, "replace the files of the case that are in DIR");
-    app.add_flag("--json", r.json, "rows of quantity, value, reference, relative_error as JSON on stdout");
-    app.add_flag("--quick", r.quick, "a coarse body and a short run");
+    app.add_flag("--force", r.force, "replace earlier files of the case in DIR");
+    app.add_flag("--json", r.json, "print quantity, value, reference and relative_error as JSON");
+    app.add_flag("--quick", r.quick, "a coarse model and a short run");
     app.set_version_flag("--version", programs::version_text("poroelasticity"));
     if (!programs::parse(app, argc, argv)) return r;
     constexpr decltype(r.run) runs[] = {poroelasticity::run_terzaghi, poroelasticity::run_mandel, poroelasticity::run_cryer,
@@ -48,10 +49,10 @@ request understand(int argc, char const* const* argv) {
 
 int main(int argc, char** argv) {
     try {
-        request const r = understand(argc, argv);
+        request const r = parse_command_line(argc, argv);
         if (!r.run) return done;
         lacuna::watch_stop_signals();
-        // Cases have files of their own, so each has a lock of its own.
+        // Cases have different files, so each has its own lock.
         lacuna::run_directory directory(r.out, "--out", poroelasticity::result_names(r.name),
                                         r.force ? lacuna::earlier_results::replace : lacuna::earlier_results::refuse,
                                         "lacuna-" + r.name + ".lock");
@@ -65,7 +66,7 @@ int main(int argc, char** argv) {
             poroelasticity::print_rows(stdout, outcome);
         programs::finish_output();
         if (!outcome.stopped) return done;
-        std::fprintf(stderr, "poroelasticity: stopped by %s after step %lld; what there is is in %s\n",
+        std::fprintf(stderr, "poroelasticity: stopped by %s after step %lld; results so far are in %s\n",
                      lacuna::signal_name(lacuna::stop_signal()).c_str(), outcome.steps, directory.file(r.name + ".csv").c_str());
         return 128 + lacuna::stop_signal();
     } catch (std::invalid_argument const& bad) {

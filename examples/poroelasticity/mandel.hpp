@@ -10,17 +10,17 @@
 
 namespace poroelasticity {
 
-/// A slab between two rigid, smooth plates that are pressed together; the fluid leaves at its two free sides.
+/// A slab compressed between two rigid, smooth plates. The fluid leaves at its two free sides.
 struct mandel_setup {
     int half_layers = 24;        ///< of pores, from the middle to a free side
-    int cells = 1;               ///< distance of the plates in disc diameters
-    double slowness = 1000;      ///< L^2 / c_v over the time that a wave takes through half the drained slab
-    double ramp = 0.01;          ///< T within which the load rises
+    int cells = 1;               ///< distance between the plates in disc diameters
+    double slowness = 1000;      ///< L^2 / c_v divided by the travel time of a wave through half the drained slab
+    double ramp = 0.01;          ///< time T within which the load rises
     lattice_medium medium{};     ///< its conductance is set by `slowness`
-    double strain = 1e-5;        ///< load over the modulus of confined compression
+    double strain = 1e-5;        ///< load divided by the modulus of confined compression
 };
 
-/// The slab, from rest and without pressure, under a load that rises and then stays.
+/// The slab, initially at rest and at pressure 0, under a load that rises and then stays constant.
 class mandel_slab {
 public:
     explicit mandel_slab(mandel_setup const& s)
@@ -50,7 +50,7 @@ public:
     double time() const { return sim_.time() * medium_.diffusivity() / (half_width() * half_width()); }
     /// Undrained pressure under the load, p_0 = B sigma / 2, Pa.
     double undrained_pressure() const { return medium_.skempton() * stress_ / 2; }
-    /// Mean pressure of the two layers beside the middle, over p_0.
+    /// Mean pressure of the two layers beside the middle, divided by p_0.
     double middle_pressure() const {
         int const m = body_.rows / 2;
         return (layer_pressure(sim_, body_, m - 1) + layer_pressure(sim_, body_, m)) / 2 / undrained_pressure();

@@ -5,12 +5,12 @@
 #include <numbers>
 
 /// \file
-/// The medium that a bonded triangular lattice of discs and its pores are, seen from afar: README.md derives it.
+/// Effective medium of a bonded triangular lattice of discs with fluid in its pores. README.md derives it.
 
 namespace poroelasticity {
 
-/// Equal touching discs on a triangular lattice, all neighbours bonded, thickness 1 m; stresses of the plane in N/m
-/// and pressures in Pa are then the same numbers.
+/// Equal touching discs on a triangular lattice, all neighbours bonded. The thickness is 1 m, so stresses of the plane
+/// in N/m and pressures in Pa have the same values.
 struct lattice_medium {
     double radius = 0.5;            ///< of a disc, m
     double normal_stiffness = 1e6;  ///< k_n, N/m
@@ -19,7 +19,7 @@ struct lattice_medium {
     double conductance = 1e-6;      ///< C of a throat, m^3/(s Pa)
     double disc_mass = 1;           ///< kg
 
-    double layer() const { return std::sqrt(3.0) * radius; } ///< distance of two rows, m
+    double layer() const { return std::sqrt(3.0) * radius; } ///< distance between two rows, m
     /// Drained bulk modulus of the plane, K = sqrt(3)/2 k_n, N/m.
     double bulk() const { return std::sqrt(3.0) / 2 * normal_stiffness; }
     /// Shear modulus G = sqrt(3)/4 (k_n + k_s), N/m.
@@ -28,25 +28,25 @@ struct lattice_medium {
     double oedometric() const { return bulk() + shear(); }
     /// Plane-strain Poisson's ratio (K - G) / 2K.
     double poisson() const { return (bulk() - shear()) / (2 * bulk()); }
-    /// Share of the area that the discs leave, 1 - pi / (2 sqrt 3).
+    /// Share of the area between the discs, 1 - pi / (2 sqrt 3).
     static double porosity() { return 1 - std::numbers::pi / (2 * std::sqrt(3.0)); }
-    /// Fluid taken up per pressure at constant volume, phi / K_f, 1/Pa.
+    /// Volume of fluid stored per pressure and volume at constant pore volume, phi / K_f, 1/Pa.
     double storage() const { return porosity() / bulk_modulus; }
-    /// Darcy's permeability over viscosity, C / sqrt 3, m^2/(s Pa).
+    /// Darcy's permeability divided by viscosity, C / sqrt 3, m^2/(s Pa).
     double permeability() const { return conductance / std::sqrt(3.0); }
     /// Coefficient of consolidation, m^2/s.
     double diffusivity() const { return permeability() / (storage() + 1 / oedometric()); }
-    /// Pressure over load after undrained confined compression, 1 / (1 + phi M / K_f).
+    /// Pressure divided by load after undrained confined compression, 1 / (1 + phi M / K_f).
     double confined_share() const { return 1 / (1 + storage() * oedometric()); }
     /// Skempton's B in the plane, 1 / (1 + phi K / K_f).
     double skempton() const { return 1 / (1 + storage() * bulk()); }
-    /// How strongly the pressure at a point depends on the mean pressure of a Mandel or Cryer body: see consolidation.
+    /// Coupling h of the local to the mean pressure in Mandel's and Cryer's problems: see consolidation.
     double mean_coupling() const { return confined_share() * shear() / bulk(); }
     /// Speed of a wave of confined compression in the drained lattice, m/s.
     double wave_speed() const {
         return std::sqrt(oedometric() / (disc_mass / (2 * std::sqrt(3.0) * radius * radius)));
     }
-    /// Chooses the conductance for a given time length^2 / c_v [s].
+    /// Sets the conductance so that length^2 / c_v is the given time, s. \param length m
     void set_consolidation_time(double time, double length) {
         conductance = 1;
         conductance = length * length / time / diffusivity();

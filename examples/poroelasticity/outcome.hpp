@@ -10,19 +10,19 @@
 #include <lacuna/observe/stop_signal.hpp>
 
 /// \file
-/// What a case comes to: numbers beside their references, curves, and a pressure field.
+/// The outcome of a case: quantities and curves with their references, and a pressure field.
 
 namespace poroelasticity {
 
-/// A quantity beside what it should be.
+/// A quantity and its reference.
 struct outcome_row {
     std::string quantity;
     double value, reference;
-    /// Relative to the reference; to 1 where that is zero.
+    /// Relative error; for a reference of zero the absolute value.
     double error() const { return reference == 0 ? std::fabs(value) : std::fabs(value / reference - 1); }
 };
 
-/// A curve of the run, and the same points of the closed form.
+/// A curve of the run with the closed form at the same points.
 struct outcome_curve {
     struct point {
         double x, value, reference;
@@ -31,7 +31,7 @@ struct outcome_curve {
     std::vector<point> points;
 };
 
-/// Pores and discs, and the pressures in them at some moment, Pa.
+/// Pores with their pressures, Pa, and discs at one moment.
 struct pressure_field {
     using point = lacuna::vec<double, 2>;
     struct pore {
@@ -44,21 +44,22 @@ struct pressure_field {
     };
     std::vector<pore> pores;
     std::vector<disc> discs;
-    std::string moment; ///< in words
+    std::string moment; ///< description for the picture
 };
 
+/// The outcome of a case.
 struct outcome {
     std::string name, title, x_label, y_label;
-    bool logarithmic = true; ///< the axis of x
+    bool logarithmic = true; ///< whether the x axis is logarithmic
     std::vector<outcome_row> rows;
     std::vector<outcome_curve> curves;
     pressure_field field;
     std::size_t particles = 0, pores = 0;
     long long steps = 0;
-    bool stopped = false; ///< by a signal: curves up to there, and no rows of what was not reached
+    bool stopped = false; ///< by a signal; then the curves are incomplete and some rows are missing
 
-    /// To be asked after each step: whether to go on.
-    bool goes_on() {
+    /// Whether to continue after a step: false once a signal has arrived.
+    bool should_continue() {
         stopped = stopped || lacuna::stop_signal() != 0;
         return !stopped;
     }
@@ -67,7 +68,7 @@ struct outcome {
     }
 };
 
-/// The field of a simulation at this moment; particles of less than `least` radius are left out.
+/// The present field of a simulation. Leaves out particles with radii below `least`, m.
 template <class Simulation>
 pressure_field field_of(Simulation const& sim, double least, std::string moment) {
     pressure_field f;
@@ -83,7 +84,7 @@ pressure_field field_of(Simulation const& sim, double least, std::string moment)
     return f;
 }
 
-/// Moments that are evenly spaced on a logarithmic axis.
+/// Times that are evenly spaced on a logarithmic axis.
 inline std::vector<double> logarithmic_times(double first, double last, int count) {
     std::vector<double> times;
     for (int k = 0; k < count; ++k) times.push_back(first * std::pow(last / first, double(k) / (count - 1)));

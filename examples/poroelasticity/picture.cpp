@@ -35,7 +35,7 @@ void draw_field(canvas& page, pressure_field const& f, rectangle const& frame) {
     for (auto const& p : f.pores) highest = std::max(highest, p.pressure);
     lacuna::color_scale const scale(0, highest > 0 ? highest : 1);
     page.set_world(extent_of(f), frame);
-    // In bands, as contours are drawn, each filled at once: no seams, and small files.
+    // Fill all pores of one pressure band at once: no seams, and small files.
     int const bands = 24;
     for (int band = 0; band < bands; ++band) {
         for (auto const& p : f.pores)

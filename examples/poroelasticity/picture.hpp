@@ -5,8 +5,9 @@
 
 namespace poroelasticity {
 
-/// Draws the pressure field over the packing, and beside it the curves: points of the run on lines of the closed form.
-/// \throws std::runtime_error when the file cannot be written
+/// Draws the pressure field with the packing and, beside it, the curves: circles for the run, lines for the closed
+/// form.
+/// \throws std::runtime_error if the file cannot be written
 void save_picture(std::string const& path, outcome const& o);
 
 } // namespace poroelasticity

@@ -13,7 +13,7 @@
 #include "medium.hpp"
 
 /// \file
-/// The model that all cases run, put together from the library's parts, and the account of its fluid.
+/// The common model of the cases, made of the library's parts, and the balance of its fluid.
 
 namespace poroelasticity {
 
@@ -21,8 +21,8 @@ using point = lacuna::vec<double, 2>;
 using discs = lacuna::packing<double, 2>;
 using network = lacuna::pore_network<double, 2>;
 
-/// The paper's bond, but as stiff as the stiffer one of its two particles: springs that lie on the outline of a body,
-/// or are cut by a line of symmetry, get a stiffness of their own by the material of the particles there.
+/// The paper's bond with the stiffness of the stiffer of its two materials. So the materials of particles on an outline
+/// or on a line of symmetry set the stiffness of the springs there.
 struct outline_bond : lacuna::brittle_spring_bond {
     static parameters<double> combine(material const& a, material const& b, double thickness) {
         auto const& stiffer = a.normal_stiffness < b.normal_stiffness ? b : a;
@@ -30,7 +30,7 @@ struct outline_bond : lacuna::brittle_spring_bond {
     }
 };
 
-/// Bonded discs, throats of constant aperture, local damping that lets the motion die out.
+/// Bonded discs, throats of constant aperture, and local damping.
 struct porous_model : lacuna::default_model<2> {
     using contact_law = lacuna::no_contact;
     using bond_law = outline_bond;
@@ -39,13 +39,13 @@ struct porous_model : lacuna::default_model<2> {
 };
 using simulator = lacuna::simulation<porous_model>;
 
-/// Materials of the particles: within a body, on its outline (half a disc), on a line of symmetry (half a disc, whole
-/// springs), on both (a quarter), and the marks of cut springs (see column).
+/// Materials of the particles: inside, on the outline (half a disc), on a line of symmetry (half a disc, whole
+/// springs), on both (a quarter of a disc), and the marks that hold cut springs (see column).
 enum material : int { inner, outline, symmetry, corner, mark };
 
-constexpr double mark_share = 1e-3; ///< radius of a mark over that of a disc
+constexpr double mark_share = 1e-3; ///< radius of a mark divided by that of a disc
 
-/// \param initial_pressure Pa
+/// Parameters of the model for a medium. \param initial_pressure Pa
 inline simulator::parameters porous_parameters(lattice_medium const& m, double initial_pressure) {
     simulator::parameters p;
     double const disc = std::numbers::pi * m.radius * m.radius;
@@ -65,7 +65,7 @@ inline simulator::parameters porous_parameters(lattice_medium const& m, double i
     add(m.disc_mass / 2, disc * mark_share * mark_share, 2);
     p.damping.factor = 0.5;
     p.safety = 0.8;
-    p.follow_critical_step = false; // those who follow the fluid take one step for the whole run
+    p.follow_critical_step = false; // fluid_account and rigid_plate use one step for the whole run
     p.flow.bulk_modulus = m.bulk_modulus;
     p.flow.initial_pressure = initial_pressure;
     p.flow.skip_ratio = std::numeric_limits<double>::infinity();
@@ -75,19 +75,19 @@ inline simulator::parameters porous_parameters(lattice_medium const& m, double i
     return p;
 }
 
-/// The throats that lead out of a body through its surface reach half as far as those from one pore to the next: only
-/// to the line of the outermost centres, where the body ends.
+/// Halves the length of throats through the surface. They lead only to the line of the outermost centres, where the
+/// packing ends, half as far as to the next pore.
 inline void halve_surface_throats(network& net) {
     for (std::size_t t = net.interior_throats; t < net.open_throats(); ++t) net.length[t] *= 0.5;
 }
 
-/// Follows the fluid of a run, step by step, from the volumes, pressures and flows of the network alone.
+/// Balance of the fluid in a run, from volumes, pressures and flows of the network alone.
 class fluid_account {
 public:
     explicit fluid_account(network const& net, double bulk_modulus) : bulk_modulus_(bulk_modulus) { remember(net); }
 
-    /// To be called after every step. \param dt s
-    void enter(network const& net, double dt) {
+    /// Call after every step. \param dt s
+    void add_step(network const& net, double dt) {
         for (std::size_t k = 0; k < net.pores(); ++k)
             gained_ += net.volume[k] * (net.pressure[k] - pressure_[k]) / bulk_modulus_ + (net.volume[k] - volume_[k]);
         for (std::size_t t = net.interior_throats; t < net.open_throats(); ++t) {
@@ -99,7 +99,7 @@ public:
     double inflow() const { return in_; }   ///< from reservoirs, m^3
     double outflow() const { return out_; } ///< to reservoirs, m^3
     double gained() const { return gained_; } ///< by the pores: sum of V dp / K_f + dV, m^3
-    /// What does not add up, over all that has passed the surface.
+    /// The imbalance divided by the total flow through the surface.
     double error() const { return std::fabs(gained_ - (in_ - out_)) / (in_ + out_); }
 
 private:

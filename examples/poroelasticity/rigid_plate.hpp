@@ -10,15 +10,16 @@
 
 namespace poroelasticity {
 
-/// A rigid, smooth plate: particles that move as one along an axis, under their common force and a load.
+/// A rigid, smooth plate: particles that move together along an axis, under their total force and a load.
 ///
-/// Its mass is chosen, as inertia has no part in the problem: large enough that the force of the last step may stand
-/// for that of the next, small enough to follow at once (against the discs next to it, it swings once in thirty steps).
+/// Inertia plays no role in the problem, so the mass is free. It is large enough to use the force of the last step for
+/// the next one, and small enough to follow the load at once: against the adjacent discs it oscillates once in thirty
+/// steps.
 class rigid_plate {
 public:
-    /// \param held the particles, fixed along `axis`: the plate gives them their velocity
-    /// \param stiffness of the discs next to the plate against it, N/m
-    /// \param damping share of the critical one
+    /// \param held the particles of the plate, fixed along `axis`; the plate sets their velocity
+    /// \param stiffness of the adjacent discs against the plate, N/m
+    /// \param damping divided by critical damping
     rigid_plate(simulator const& sim, discs const& packing, std::vector<std::size_t> const& held, int axis,
                 double stiffness, double damping)
         : axis_(axis), on_plate_(sim.size(), 0), particles_(held) {
@@ -35,7 +36,7 @@ public:
             if (touches(net, k)) pores_.push_back(k);
     }
 
-    /// Force of the body on the plate in the last step, N.
+    /// Force of the packing on the plate in the last step, N.
     double force(simulator const& sim) const {
         double sum = 0;
         for (auto const& [a, b] : bonds_) sum += sim.pair_force(std::size_t(a), std::size_t(b))[axis_];
@@ -47,12 +48,12 @@ public:
         }
         return sum;
     }
-    /// Gives the plate its velocity for the next step. \param load towards the body, N
+    /// Sets the velocity of the plate for the next step. \param load towards the packing, N
     void move(simulator& sim, double load) {
         velocity_ += (force(sim) - load - drag_ * velocity_) / mass_ * sim.time_step();
         drive(sim, velocity_);
     }
-    /// Gives the plate a velocity, m/s, that no force changes.
+    /// Sets the velocity of the plate, m/s, whatever the force.
     void drive(simulator& sim, double velocity) {
         velocity_ = velocity;
         for (std::size_t i : particles_) {
@@ -70,7 +71,7 @@ private:
     }
 
     int axis_;
-    std::vector<char> on_plate_; ///< by the library's own numbers
+    std::vector<char> on_plate_; ///< by internal index
     double mass_ = 0, drag_ = 0, velocity_ = 0;
     std::vector<std::size_t> particles_, pores_;
     std::vector<std::array<std::int32_t, 2>> bonds_;

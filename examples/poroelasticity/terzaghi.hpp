@@ -13,13 +13,13 @@ namespace poroelasticity {
 struct terzaghi_setup {
     int layers = 40;             ///< of pores; even
     int cells = 1;               ///< width in disc diameters
-    double slowness = 800;       ///< H^2 / c_v over the time that a wave takes through the drained column
+    double slowness = 800;       ///< H^2 / c_v divided by the travel time of a wave through the drained column
     lattice_medium medium{};     ///< its conductance is set by `slowness`
-    double strain = 1e-5;        ///< at the end
+    double strain = 1e-5;        ///< final strain
 };
 
-/// The column at the beginning: the fluid carries the whole load, the skeleton none (an undrained loading with a fluid
-/// as stiff as one likes; from there on the pressure is that of any fluid, over its own start).
+/// The column at time 0: the fluid carries the whole load, the skeleton none. This is undrained loading of an
+/// incompressible fluid. The pressure divided by its initial value is the same for any fluid.
 class terzaghi_column {
 public:
     explicit terzaghi_column(terzaghi_setup const& s)
@@ -41,7 +41,7 @@ public:
     double load() const { return load_; }                         ///< Pa
     /// T = c_v t / H^2.
     double time() const { return sim_.time() * medium_.diffusivity() / (body_.length() * body_.length()); }
-    /// Settlement over that at the end.
+    /// Settlement divided by the final settlement.
     double consolidation_degree() const {
         return (start_ - sim_.position(top_)[1]) / (load_ * body_.length() / medium_.oedometric());
     }

@@ -35,7 +35,7 @@ double stiff_fluid_coupling(double nu) { return 1 - 2 * nu; }
 } // namespace
 
 TEST_CASE("the series of Terzaghi, Mandel and Cryer agree with the references") {
-    consolidation const column(consolidation::body::slab, 0);
+    consolidation const column(consolidation::shape::slab, 0);
     for (auto const& [key, time] : keys_of("6a.terzaghi_U"))
         REQUIRE_THAT(1 - column.mean(time), WithinRel(reference("6a.terzaghi_U", key), 1e-10));
     for (auto const& [key, time] : keys_of("6a.terzaghi_base_p"))
@@ -45,7 +45,7 @@ TEST_CASE("the series of Terzaghi, Mandel and Cryer agree with the references") 
     for (auto const& [key, time] : keys_of("7.dimensionless", "creep U"))
         REQUIRE_THAT(1 - column.mean(time), WithinRel(reference("7.dimensionless", "creep U", key), 1e-6));
     for (auto const* id : {"6c.mandel_center", "6d.cryer_disc_2D"}) {
-        auto const shape = id[1] == 'c' ? consolidation::body::slab : consolidation::body::disc;
+        auto const shape = id[1] == 'c' ? consolidation::shape::slab : consolidation::shape::disc;
         for (auto const& [name, node] : reference_node(id).items()) {
             // The key of 1/3 has four digits only.
             double const nu = name == "nu=0.3333" ? 1.0 / 3 : std::stod(name.substr(3));
@@ -93,7 +93,7 @@ TEST_CASE("the triangular column consolidates as its exact semi-discrete equatio
     for (auto const& [key, time] : keys_of(id, "table")) {
         while (sim.time() < time) {
             sim.step();
-            fluid.enter(sim.flow().network(), sim.time_step());
+            fluid.add_step(sim.flow().network(), sim.time_step());
         }
         INFO("t = " << key);
         double const settlement = (start - sim.position(top)[1]) / load;
@@ -107,7 +107,7 @@ TEST_CASE("the triangular column consolidates as its exact semi-discrete equatio
 }
 
 TEST_CASE("Terzaghi's column: the error of the lattice falls with the square of its layers") {
-    consolidation const exact(consolidation::body::slab, 0);
+    consolidation const exact(consolidation::shape::slab, 0);
     auto const error = [&](int layers) {
         terzaghi_setup setup;
         setup.layers = layers;
@@ -116,7 +116,7 @@ TEST_CASE("Terzaghi's column: the error of the lattice falls with the square of 
         fluid_account fluid(column.sim().flow().network(), setup.medium.bulk_modulus);
         while (column.time() < 0.05) {
             column.sim().step();
-            fluid.enter(column.sim().flow().network(), column.sim().time_step());
+            fluid.add_step(column.sim().flow().network(), column.sim().time_step());
         }
         REQUIRE(fluid.error() < 1e-10);
         return column.consolidation_degree() / (1 - exact.mean(column.time())) - 1;
@@ -231,12 +231,12 @@ TEST_CASE("Mandel's slab: the pressure in the middle rises to the reference's pe
     setup.slowness = 600;
     mandel_slab slab(setup);
     REQUIRE_THAT(slab.medium().poisson(), WithinAbs(std::stod(std::string(name).substr(3)), 1e-12));
-    consolidation const exact(consolidation::body::slab, slab.medium().mean_coupling(), setup.ramp);
+    consolidation const exact(consolidation::shape::slab, slab.medium().mean_coupling(), setup.ramp);
     fluid_account fluid(slab.sim().flow().network(), setup.medium.bulk_modulus);
     double highest = 0, when = 0;
     while (slab.time() < 0.1) {
         slab.step();
-        fluid.enter(slab.sim().flow().network(), slab.sim().time_step());
+        fluid.add_step(slab.sim().flow().network(), slab.sim().time_step());
         if (slab.sim().steps() % 20 != 0 || slab.time() < 0.03) continue;
         double const p = slab.middle_pressure();
         if (p > highest) {
@@ -260,12 +260,12 @@ TEST_CASE("Cryer's disc: the pressure in the middle rises to the reference's pea
     setup.medium.bulk_modulus = 3 * setup.medium.normal_stiffness;
     setup.slowness = 200;
     cryer_disc disc(setup);
-    consolidation const exact(consolidation::body::disc, disc.medium().mean_coupling(), 0, 40);
+    consolidation const exact(consolidation::shape::disc, disc.medium().mean_coupling(), 0, 40);
     fluid_account fluid(disc.sim().flow().network(), setup.medium.bulk_modulus);
     double highest = 0, when = 0;
     while (disc.time() < 0.08) {
         disc.sim().step();
-        fluid.enter(disc.sim().flow().network(), disc.sim().time_step());
+        fluid.add_step(disc.sim().flow().network(), disc.sim().time_step());
         double const p = disc.middle_pressure();
         if (disc.time() < 0.03 || p <= highest) continue;
         highest = p;
