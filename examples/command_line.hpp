@@ -22,11 +22,11 @@
 #include <lacuna/core/version.hpp>
 
 /// \file
-/// What the command lines of all programs have in common: version, refusals in one line, the word that was meant.
+/// Common parts of the programs' command lines: version, refusals in one line, suggestions for misspelt words.
 
 namespace programs {
 
-/// Name and version of a program, compiler and the optional components that it was built with.
+/// Name and version of a program, its compiler and its optional components.
 inline std::string version_text(std::string const& program) {
     std::string text = program + " " + std::to_string(LACUNA_VERSION_MAJOR) + "." + std::to_string(LACUNA_VERSION_MINOR) + "." +
                        std::to_string(LACUNA_VERSION_PATCH);
@@ -55,18 +55,18 @@ inline std::string version_text(std::string const& program) {
     return text.append(", with ").append(parts.empty() ? "no components" : parts);
 }
 
-/// " (did you mean --force?)", or nothing.
+/// " (did you mean --force?)", or "" if no known word is similar.
 inline std::string meant(std::string const& word, std::vector<std::string> const& known) {
     std::string const near = lacuna::nearest_word(word, known);
     return near.empty() ? "" : " (did you mean " + near + "?)";
 }
-/// "a, b or c"
+/// The words as "a, b or c".
 inline std::string list_of(std::vector<std::string> const& words) {
     std::string text;
     for (std::size_t k = 0; k < words.size(); ++k) text += (k == 0 ? "" : k + 1 < words.size() ? ", " : " or ") + words[k];
     return text;
 }
-/// The place of a word among those that it may be.
+/// The index of a word among the known words.
 /// \throws std::invalid_argument "--case word: must be a, b or c (did you mean b?)"
 inline std::size_t place_of(std::string const& option, std::string const& word, std::vector<std::string> const& known) {
     auto const at = std::find(known.begin(), known.end(), word);
@@ -74,8 +74,8 @@ inline std::size_t place_of(std::string const& option, std::string const& word, 
     throw std::invalid_argument(option + " " + (word.empty() ? "''" : word) + ": must be " + list_of(known) + meant(word, known));
 }
 
-/// Sees to it that all that was said on stdout is there. A reader who has gone, as of a pipe, misses nothing.
-/// \throws std::runtime_error where it cannot be written, as on a full disk
+/// Flushes stdout. A closed pipe is no error.
+/// \throws std::runtime_error if stdout cannot be written, for example on a full disk
 inline void finish_output() {
     errno = 0;
     std::cout.flush();
@@ -91,7 +91,7 @@ inline void finish_output() {
 
 namespace detail {
 
-/// The options, and the names of commands, that may stand on the command line of an app or of its commands.
+/// Collects the options and commands of an app and of its commands.
 inline void names_of(CLI::App const& app, std::vector<std::string>& options, std::vector<std::string>& commands) {
     for (auto const* option : app.get_options())
         for (std::string const& name : option->get_lnames()) options.push_back("--" + name);
@@ -101,7 +101,7 @@ inline void names_of(CLI::App const& app, std::vector<std::string>& options, std
     }
 }
 
-/// What is wrong with the first word of a command line that nothing is called, in one line; empty: all are known.
+/// A message of one line about the first unknown word of a command line; empty if all words are known.
 inline std::string unknown_word(CLI::App const& app, int argc, char const* const* argv) {
     std::vector<std::string> options, commands;
     names_of(app, options, commands);
@@ -121,8 +121,8 @@ inline std::string unknown_word(CLI::App const& app, int argc, char const* const
 } // namespace detail
 
 /// Lets CLI11 read the command line.
-/// \return false: help or the version was asked for, and is on stdout
-/// \throws std::invalid_argument with one line; as finish_output()
+/// \return false if help or the version was requested and printed
+/// \throws std::invalid_argument with a message of one line; std::runtime_error as finish_output()
 inline bool parse(CLI::App& app, int argc, char const* const* argv) {
     try {
         app.parse(argc, argv);

@@ -10,20 +10,23 @@
 #include <lacuna/observe/progress.hpp>
 
 /// \file
-/// How far a run is, on a terminal.
+/// Progress of a run on a terminal.
 
 namespace programs {
 
-/// Shows percent, rate and time left in one line on stderr where that is a terminal; elsewhere nothing. An observer of
-/// simulations, too.
+/// Shows percentage, rate and remaining time in one line on stderr if stderr is a terminal, otherwise nothing. It can
+/// observe a simulation.
 class terminal_progress {
 public:
     static constexpr lacuna::stage stages = lacuna::stage::step;
 
-    /// \param wanted false: nothing is shown
+    /// \param wanted false: shows nothing
     explicit terminal_progress(bool wanted = true) : sink_(wanted && lacuna::is_terminal(stderr) ? stderr : nullptr) {}
 
-    /// A run begins. \param steps about so many \param from the number of steps done before it
+    /// Starts the display for a run.
+    /// \param steps estimated number of steps
+    /// \param particles number of particles, for the rate
+    /// \param from number of steps done before
     void begin(double steps, std::size_t particles, long long from = 0) {
         finish();
         lacuna::progress_options how;
@@ -34,11 +37,11 @@ public:
         from_ = done_ = from;
         reporter_.emplace(how);
     }
-    /// The run turns out to be about so many steps long.
+    /// Corrects the estimated number of steps.
     void expect(double steps) {
         if (sink_ != nullptr && reporter_) reporter_->expect(whole(steps));
     }
-    /// \param step the number of steps done, those before the run included
+    /// Updates the display. \param step number of steps done, including those before the run
     void passed(long long step) {
         if (sink_ == nullptr || !reporter_) return;
         done_ = step;
@@ -48,7 +51,7 @@ public:
     void on_step(Simulation const& sim) {
         passed(sim.steps());
     }
-    /// The run has ended: what is said next stands on a line of its own.
+    /// Ends the display; later output starts on a new line.
     void finish() {
         if (sink_ != nullptr && reporter_) reporter_->finish(done_ - from_);
         reporter_.reset();

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# cmake -D PROGRAM=... -D SCRATCH=... -P check.cmake: apertures of the squeezed pair against numbers from hand.
+# cmake -D PROGRAM=... -D SCRATCH=... -P check.cmake: compares apertures of the loaded pair with numbers by hand.
 
 cmake_minimum_required(VERSION 3.25)
 
@@ -11,7 +11,7 @@ if(NOT result STREQUAL "0")
   message(FATAL_ERROR "exit status ${result}\n${out}${err}")
 endif()
 
-# expect(law force aperture conductance): in nN, fm and 1e-27 m^3/(Pa s), whole numbers within 1 in 1000 of these.
+# expect(law force aperture conductance): in nN, fm and 1e-27 m^3/(Pa s), whole numbers, correct to 1 in 1000.
 # Bond 1e4 N/m; a_0 = 10 nm, F_0 = F_d = 0.1 mN, a_inf = 1 nm, h = 1; C = 3.5e-6 / (12 * 1e-3) a^3 / 3e-6.
 function(expect law force aperture conductance)
   if(NOT out MATCHES "${law} +${force} +([0-9]+) +([0-9]+)\n")
@@ -44,7 +44,7 @@ foreach(ending IN ITEMS csv png)
 endforeach()
 file(STRINGS "${SCRATCH}/pair.csv" rows)
 list(LENGTH rows count)
-# A headline, and 4 laws at 401 forces.
+# A heading, and 4 laws at 401 forces.
 if(NOT count EQUAL 1605)
   message(FATAL_ERROR "pair.csv has ${count} lines")
 endif()

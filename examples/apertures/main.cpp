@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// apertures [stem]: squeezes one bonded pair with water on both sides of it, from 0.1 mN of tension to 0.3 mN of
-// compression, once with each aperture law. Writes stem.csv and stem.png, and the states at +-0.1 mN to the screen.
+// apertures [stem]: loads one bonded pair with water on both sides from 0.1 mN of tension to 0.3 mN of compression,
+// once with each aperture law. Writes stem.csv and stem.png, and prints the states at +-0.1 mN.
 
 #include <cmath>
 #include <cstdio>
@@ -29,9 +29,9 @@ struct pair_model : lacuna::default_model<2> {
 
 constexpr double radius = 1.5e-6, thickness = 3.5e-6, stiffness = 1e4; // m, m, N/m
 constexpr double viscosity = 1e-3;                                     // of water, Pa s
-constexpr double step_gap = 1e-10;                                     // change of the gap within a step, m
+constexpr double step_gap = 1e-10;                                     // change of the gap in one step, m
 
-/// The pair, one above the other, and beside it two smaller discs that close a pore on each side.
+/// The pair, one disc above the other, and two smaller discs that close a pore on each side.
 lacuna::packing<double, 2> make_discs() {
     lacuna::packing<double, 2> p;
     double const aside = std::sqrt(3.0) * radius;
@@ -64,18 +64,18 @@ apertures::curve squeeze(std::string const& law, typename Aperture::parameters c
     });
 
     double const speed = 0.5 * step_gap / p.time_step;
-    auto const move = [&](double way, int steps, auto const& look) {
-        sim.set_velocity(0, {0, -way * speed});
-        sim.set_velocity(1, {0, way * speed});
+    auto const move = [&](double direction, int steps, auto const& record) {
+        sim.set_velocity(0, {0, -direction * speed});
+        sim.set_velocity(1, {0, direction * speed});
         for (int s = 0; s < steps; ++s) {
             double const gap = sim.position(1)[1] - sim.position(0)[1] - 2 * radius;
             sim.step();
-            look(gap);
+            record(gap);
         }
     };
     move(1, 100, [](double) {});
     apertures::curve result{law, {}};
-    // The only throat that is not on the boundary is the pair's.
+    // Throat 0 is that of the pair: all others are on the boundary.
     move(-1, 401, [&](double gap) {
         auto const& net = sim.flow().network();
         result.samples.push_back({sim.pair_force(0, 1)[1], gap, net.aperture[0], net.conductance[0]});
@@ -99,7 +99,7 @@ void save_table(std::string const& path, std::vector<apertures::curve> const& cu
 
 int main(int argc, char** argv) {
     if (argc > 2 || (argc == 2 && argv[1][0] == '-')) {
-        std::fputs("apertures [stem]: writes stem.csv and stem.png; stem is \"apertures\" where none is given\n", stderr);
+        std::fputs("apertures [stem]: writes stem.csv and stem.png; default stem: \"apertures\"\n", stderr);
         return 2;
     }
     try {

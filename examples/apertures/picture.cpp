@@ -14,7 +14,7 @@ namespace {
 color const ink{0.2, 0.2, 0.2};
 color const inks[] = {{0.35, 0.35, 0.35}, {0.80, 0.25, 0.15}, {0.15, 0.45, 0.75}, {0.20, 0.60, 0.30}};
 
-/// A quantity over the force: mN to the right, `value` of a sample upwards.
+/// Plots `value` of each sample against the force in mN.
 template <class Value>
 void draw_curves(canvas& page, rectangle const& frame, std::vector<curve> const& curves, plot_axis const& y,
                  Value const& value) {
@@ -23,7 +23,7 @@ void draw_curves(canvas& page, rectangle const& frame, std::vector<curve> const&
     for (std::size_t c = 0; c < curves.size(); ++c) {
         plot::points line;
         for (sample const& s : curves[c].samples) line.push_back({1e3 * s.force, value(s)});
-        // Curves that run on top of each other: the first ones are wider.
+        // Earlier curves are wider, so that coinciding curves stay visible.
         plane.line(line, inks[c % 4], 6.5 - 1.5 * double(c));
     }
 }
