@@ -18,17 +18,18 @@
 #include "sheet.hpp"
 
 /// \file
-/// The block of spheres on which step rates in space are measured: random radii on a face-centred cubic topology, squeezed
-/// as the sheet is. Bottom and sides are held; the top layer carries the force with which the squeezed block pushes against
-/// it. It is not relaxed: the spheres swing about where their neighbours hold them. Units and constants are the sheet's.
+/// The block of spheres on which step rates in space are measured: random radii on a face-centred cubic topology,
+/// squeezed like the sheet. Bottom and sides are held. The top layer carries the force with which the squeezed block
+/// pushes against it. The block is not relaxed: the spheres oscillate about their equilibrium. Units and constants are
+/// those of the sheet.
 
 namespace bench {
 
-/// Spheres at the even places i + j + k of a grid of columns x rows x layers; rows are one above the other (y).
+/// Spheres at the points of a grid of columns x rows x layers with even i + j + k. Rows are stacked along y.
 struct block {
     static constexpr int dim = 3;
     int columns = 0, rows = 0, layers = 0;
-    double load = 0; ///< force on each free sphere of the top, downwards
+    double load = 0; ///< downward force on each free sphere of the top layer
     std::vector<std::array<std::int16_t, 3>> cell;
     std::vector<double> x, y, z, radius;
 
@@ -57,7 +58,7 @@ struct block {
 
 namespace detail {
 
-/// Columns, rows and layers of a grid with about twice as many places as particles; the columns' number is even.
+/// Columns, rows and layers of a grid with about twice as many points as particles. The number of columns is even.
 inline std::array<int, 3> block_shape(std::size_t particles) {
     if (particles == 3200) return {20, 16, 20};
     if (particles == 100000) return {50, 80, 50};
@@ -69,7 +70,7 @@ inline double distance(block const& b, std::size_t i, std::size_t j) {
     return std::hypot(b.x[i] - b.x[j], b.y[i] - b.y[j], b.z[i] - b.z[j]);
 }
 
-/// Numbers all places of the grid; positions and radii are left to the caller.
+/// Lists the grid points of all spheres. Does not set positions and radii.
 inline block lay_out(std::array<int, 3> const& shape) {
     block b;
     b.columns = shape[0];
@@ -99,7 +100,7 @@ inline sheet_statistics measure(block const& b, sheet_constants const& = {}) {
     return found;
 }
 
-/// Makes a block of about `particles` spheres (exactly 3,200 or 100,000 for these): the same bits each time.
+/// Makes a block of about `particles` spheres; 3,200 and 100,000 are exact. The result has the same bits each time.
 inline block make_block(std::size_t particles, sheet_constants const& c = {}, std::uint64_t seed = 2024) {
     block b = detail::lay_out(detail::block_shape(particles));
     std::mt19937_64 generator(seed);
@@ -124,7 +125,7 @@ inline block make_block(std::size_t particles, sheet_constants const& c = {}, st
     return b;
 }
 
-/// The block as the library takes it, bonded to its neighbours or not at all.
+/// The block as a packing of the library, with or without bonds between neighbours.
 template <class Real>
 lacuna::packing<Real, 3> to_packing(block const& b, work w) {
     lacuna::packing<Real, 3> result;
@@ -138,8 +139,8 @@ lacuna::packing<Real, 3> to_packing(block const& b, work w) {
     return result;
 }
 
-/// As for a sheet: the first line carries columns, rows, layers and load.
-/// \throws std::runtime_error when the file cannot be written
+/// Writes the block for LAMMPS, as for a sheet. A comment in the first line holds columns, rows, layers and load.
+/// \throws std::runtime_error if the file cannot be written
 inline void write_lammps(block const& b, std::string const& path) {
     std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "w"), &std::fclose);
     if (!file) throw std::runtime_error("cannot write " + path);
@@ -155,7 +156,7 @@ inline void write_lammps(block const& b, std::string const& path) {
 }
 
 /// Reads a block that write_lammps() wrote.
-/// \throws std::runtime_error when the file is missing or not of that kind
+/// \throws std::runtime_error if the file is missing or has another format
 inline block read_block(std::string const& path) {
     std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "r"), &std::fclose);
     if (!file) throw std::runtime_error("cannot read " + path);

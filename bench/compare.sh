@@ -3,15 +3,15 @@
 #
 # sh bench/compare.sh [--quick] [--million] [--three] [--json]
 #
-# Our works beside LAMMPS (gran/hooke/history: friction, no bonds) on the same sheets, one after the other on one core,
-# several rounds; prints medians: particle-steps a second of both, their ratio, ns a pair and peak memory of ours.
-#   --quick    fewer and shorter rounds, double precision only: under 50 s once all is built
+# Compares Lacuna with LAMMPS (gran/hooke/history: friction, no bonds) on the same sheets, alternating on one core in
+# several rounds. Prints medians: particle-steps/s of both, their ratio, and our ns per pair and peak memory.
+#   --quick    fewer and shorter rounds, double precision only: under 50 s after the build
 #   --million  also a fully bonded sheet of 1,000,000
-#   --three    blocks of spheres in space instead of sheets: works full3 and frictional3
-#   --json     a list of objects on stdout, instead of a table: work, particles, real, ours, lammps, ratio, ns_per_pair,
+#   --three    blocks of spheres instead of sheets: workloads full3 and frictional3
+#   --json     prints a list of objects instead of a table: work, particles, real, ours, lammps, ratio, ns_per_pair,
 #              rss_mb
-# The figure of LAMMPS is for its frictional sheet or block, whatever our work. Where LAMMPS cannot be had, lammps and ratio are null.
-# Exit status 1 when a work fails its physics checks; never because of a time.
+# LAMMPS always runs its frictional sheet or block, whatever our workload. Without LAMMPS, lammps and ratio are null.
+# Exit status 1 if a workload fails its physics checks; it does not depend on times.
 set -eu
 
 root=$(cd "$(dirname "$0")/.." && pwd)
@@ -52,7 +52,7 @@ say "building"
 ours="$build/bench/bench_one_work"
 plain="$build/bench/bench_plain_kernel"
 
-# The last of the cores we may use: the first has most of the system's own work.
+# Use the last allowed core: the system itself runs mostly on the first.
 pin=
 if command -v taskset >/dev/null 2>&1; then
     core=$(taskset -cp $$ | sed 's/.*[^0-9]//')

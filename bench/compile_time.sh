@@ -3,8 +3,8 @@
 #
 # sh bench/compile_time.sh [--rounds N] [--json]
 #
-# Seconds to compile a program with one simulator, without fluid and with it, at -O0 and at -O3 -march=native: medians.
-# CXX names the compiler (g++), CXXFLAGS what it needs to find Eigen and nanoflann.
+# Median seconds to compile a program with one simulator, without and with fluid, at -O0 and at -O3 -march=native.
+# CXX is the compiler (g++). CXXFLAGS may add include paths of Eigen and nanoflann.
 set -eu
 
 root=$(cd "$(dirname "$0")/.." && pwd)

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What one core of this machine gives at most: bandwidth of a = b + s c at sizes that fit into one cache after the other,
-// and arithmetic of independent chains held in registers, with fused multiply-add and, as our programs are built, without.
-// Best of several rounds: a limit is not a median.
+// Limits of one core of this machine: bandwidth of a = b + s c for sizes that fit each cache in turn, and arithmetic of
+// independent chains in registers, with and without fused multiply-add. Takes the best of several rounds, because a
+// limit is no median.
 //   bench_machine: prints one line of JSON
 
 #include <algorithm>
@@ -22,7 +22,7 @@ double since(clock_type::time_point start) {
     return std::chrono::duration<double>(clock_type::now() - start).count();
 }
 
-/// Bytes a second, counting two reads and one write; three arrays of `bytes` in all.
+/// Bytes per second, counting two reads and one write. \param bytes total size of the three arrays
 double triad(std::size_t bytes) {
     std::size_t const n = bytes / 24, repeats = std::max<std::size_t>(1, (std::size_t(1) << 28) / bytes);
     std::vector<double> a(n, 1.0), b(n, 2.0), c(n, 3.0);
@@ -34,7 +34,7 @@ double triad(std::size_t bytes) {
             double *__restrict to = a.data(), *__restrict x = b.data(), *__restrict y = c.data();
 #pragma omp simd
             for (std::size_t k = 0; k < n; ++k) to[k] = x[k] + s * y[k];
-            // The compiler must not see that all but the last round are overwritten.
+            // Hide from the compiler that all rounds but the last are overwritten.
             std::swap(a, b);
         }
         best = std::max(best, 24.0 * double(n) * double(repeats) / since(start));
@@ -42,7 +42,7 @@ double triad(std::size_t bytes) {
     return best;
 }
 
-/// Operations a second; a multiplication and an addition count as two, fused or not.
+/// Operations per second. A multiplication and an addition count as two, fused or not.
 template <bool Fused>
 double arithmetic(double seed) {
     constexpr int chains = 96;
@@ -59,7 +59,7 @@ double arithmetic(double seed) {
         double const seconds = since(start);
         double sum = 0;
         for (double const v : value) sum += v;
-        // Always true; it keeps the chains alive.
+        // Always true, but the compiler cannot remove the chains.
         if (sum > 0) best = std::max(best, 2.0 * chains * double(steps) / seconds);
     }
     return best;

@@ -10,7 +10,7 @@
 #endif
 
 /// \file
-/// What a figure must say of the program and the machine that made it.
+/// Facts about program and machine that belong to every result.
 
 #ifndef LACUNA_BENCH_COMMIT
 #define LACUNA_BENCH_COMMIT "unknown"
@@ -24,7 +24,7 @@
 
 namespace bench {
 
-/// Name of the processor, as Linux has it; "unknown" elsewhere.
+/// Name of the processor from Linux's /proc/cpuinfo; "unknown" elsewhere.
 inline std::string cpu_name() {
     std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen("/proc/cpuinfo", "r"), [](std::FILE* f) {
         return f ? std::fclose(f) : 0;
@@ -39,8 +39,8 @@ inline std::string cpu_name() {
     return "unknown";
 }
 
-/// Memory in use now, not at its peak, MiB; 0 where Linux's /proc is not there. What was freed and is kept for later by the
-/// C library, if it is GNU's, is given back to the system before.
+/// Memory in use at present, not at its peak, MiB; 0 without Linux's /proc. Freed memory that GNU's C library retains
+/// is returned to the system first.
 inline double resident_mb() {
 #ifdef __GLIBC__
     malloc_trim(0);

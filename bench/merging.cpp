@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What merging pores saves and what it costs. In a sealed packing of discs with a slit along half of its middle, fluid
-// flows from one end to the other until the pressure's half wave has lost a fifth of its height. The pores that a
-// throat above the threshold joins are one; thresholds are quantiles of the throats' conductances. Against the same
-// packing without merging, at half its critical step: the pressures at the end, and the steps and the time (of the
-// processor) that each takes at 0.9 of its own critical step.
+// Gain and error of merging pores. In a sealed packing of discs with a slit along half of its middle, fluid flows from
+// one end to the other until the half wave of pressure has lost a fifth of its amplitude. Throats above a threshold
+// merge their pores; thresholds are quantiles of the conductances. The reference is the same packing without merging at
+// half its critical step. Prints errors of the final pressures, and steps and processor time at 0.9 of each critical
+// step.
 //   bench_merging [--disordered]
-// --disordered: no slit, but discs of more different radii and places, some of which overlap and leave small pores.
-// Exit status 1 when a step makes or loses more than 1e-12 of the fluid that flows in it.
+// --disordered: no slit, but more scatter in radii and positions; some discs overlap and leave small pores.
+// Exit status 1 if a step creates or loses more than 1e-12 of the fluid that flows in it.
 
 #include <algorithm>
 #include <cmath>
@@ -66,12 +66,12 @@ flow_type make_flow(packing const& p, double threshold) {
     for (std::size_t k = 0; k < flow.network().pores(); ++k)
         flow.set_pressure(k, half_wave(flow.network(), k, points));
     flow.refresh_apertures(lacuna::particle_records(points, p.r.data()), std::vector<double>(4, 0.0).data());
-    flow.deactivate_slow_throats(1.0); // forms the clusters; skips none
+    flow.deactivate_slow_throats(1.0); // forms the clusters; deactivates no throat
     return flow;
 }
 
-/// What is left of the half wave.
-double height(flow_type const& flow, packing const& p) {
+/// Amplitude of the half wave of pressure.
+double amplitude(flow_type const& flow, packing const& p) {
     auto const& net = flow.network();
     double sum = 0, all = 0;
     for (std::size_t k = 0; k < net.pores(); ++k) {
@@ -94,7 +94,7 @@ int main(int argc, char** argv) {
     auto exact = make_flow(discs, std::numeric_limits<double>::infinity());
     double const step = exact.critical_time_step();
     double duration = 0;
-    while (height(exact, discs) > 0.8) {
+    while (amplitude(exact, discs) > 0.8) {
         for (int n = 0; n < 20; ++n) exact.advance<false>(0.5 * step);
         duration += 10 * step;
     }
@@ -109,8 +109,8 @@ int main(int argc, char** argv) {
     bool sound = true;
     double first_time = 0;
     for (double const share : {0.0, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2}) {
-        auto const place = std::size_t((1 - share) * double(conductances.size() - 1));
-        double const threshold = share > 0 ? conductances[place] : std::numeric_limits<double>::infinity();
+        auto const index = std::size_t((1 - share) * double(conductances.size() - 1));
+        double const threshold = share > 0 ? conductances[index] : std::numeric_limits<double>::infinity();
         auto flow = make_flow(discs, threshold);
         double const own = flow.critical_time_step();
         auto const steps = std::max(1L, long(std::ceil(duration / (0.9 * own))));
@@ -136,7 +136,7 @@ int main(int argc, char** argv) {
                     net.pores() - clusters.members().size() + clusters.clusters(), clusters.clusters(), own / step,
                     steps, seconds / first_time, most, std::sqrt(sum / volume));
     }
-    std::printf("time: over that of the first row; errors: over the half wave's first height\n");
-    if (!sound) std::fprintf(stderr, "bench_merging: the fluid's mass does not add up\n");
+    std::printf("time: divided by that of the first row; errors: divided by the initial amplitude\n");
+    if (!sound) std::fprintf(stderr, "bench_merging: the mass of the fluid is not conserved\n");
     return sound ? 0 : 1;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Runs one work once and prints one line of JSON; exit status 1 when its physics checks fail, 2 for bad arguments.
+// Runs one workload once and prints one line of JSON. Exit status 1 if its physics checks fail, 2 for bad arguments.
 
 #include <algorithm>
 #include <chrono>
@@ -27,7 +27,7 @@ struct options {
 char const usage[] =
     "usage: bench_one_work [--work full|half|frictional|half_fluid|full3|frictional3] [--real double|float] [--particles N]\n"
     "                      [--sheet FILE] [--steps N | --seconds S] [--threads N]\n"
-    "       bench_one_work --write FILE [--work W] [--particles N]  only makes the sheet or block, as a data file of LAMMPS\n";
+    "       bench_one_work --write FILE [--work W] [--particles N]  only writes the sheet or block as a data file for LAMMPS\n";
 
 options parse(int count, char** arguments) {
     options o;
@@ -56,12 +56,12 @@ bench::timing measure(Body const& s, bench::work w, options const& o) {
     if (o.steps > 0) {
         run.run(o.steps);
     } else {
-        // As many steps as fill the time, by the speed of a first few.
+        // Choose the number of steps from the speed of the first few.
         auto const start = std::chrono::steady_clock::now();
         long long const probe = std::clamp(160000 / (long long)s.size(), 3LL, 50LL);
         run.run(probe);
         double const one = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / double(probe);
-        // No more than 20,000: after 30,000 the rounding of places in single precision shows in the energy, by 1 %.
+        // At most 20,000: after 30,000, rounding of positions in single precision changes the energy by 1 %.
         run.run(std::clamp((long long)(o.seconds / one), 5LL, 20000LL));
     }
     return run.finish();
@@ -78,9 +78,9 @@ bench::timing measure_in(bench::block const& b, options const& o) {
     return measure<bench::dry_model<Real, 3>>(b, bench::parse_work(o.work), o);
 }
 
-/// Writes the sheet or block, or runs its work. \return exit status
+/// Writes the sheet or block, or runs its workload. \return exit status
 template <class Body>
-int serve(Body const& s, options const& o) {
+int write_or_run(Body const& s, options const& o) {
     if (!o.write_file.empty()) {
         bench::write_lammps(s, o.write_file);
         auto const m = bench::measure(s);
@@ -116,8 +116,8 @@ int main(int count, char** arguments) {
     }
     try {
         if (bench::in_space(bench::parse_work(o.work)))
-            return serve(o.sheet_file.empty() ? bench::make_block(o.particles) : bench::read_block(o.sheet_file), o);
-        return serve(o.sheet_file.empty() ? bench::make_sheet(o.particles) : bench::read_lammps(o.sheet_file), o);
+            return write_or_run(o.sheet_file.empty() ? bench::make_block(o.particles) : bench::read_block(o.sheet_file), o);
+        return write_or_run(o.sheet_file.empty() ? bench::make_sheet(o.particles) : bench::read_lammps(o.sheet_file), o);
     } catch (std::exception const& error) {
         std::fprintf(stderr, "%s\n", error.what());
         return 1;

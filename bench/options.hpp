@@ -9,13 +9,13 @@
 #include <vector>
 
 /// \file
-/// What benches that print a table, or JSON, read from their command lines, and how they sum up rounds.
+/// Command line of benches that print a table or JSON, and the median of their rounds.
 
 namespace bench {
 
 /// Reads `--json` and options that take a whole number from 1 to 1024.
-/// \param numbers names and where their values go
-/// \return whether all words were understood
+/// \param numbers names of options and the variables for their values
+/// \return false for an unknown option or a bad value
 inline bool read_options(int count, char** words, std::initializer_list<std::pair<char const*, int*>> numbers, bool& json) {
     for (int k = 1; k < count; ++k) {
         std::string const name = words[k];
@@ -35,7 +35,7 @@ inline bool read_options(int count, char** words, std::initializer_list<std::pai
     return true;
 }
 
-/// \param list not empty
+/// Median of a list that is not empty.
 inline double median(std::vector<double> list) {
     std::sort(list.begin(), list.end());
     return (list[(list.size() - 1) / 2] + list[list.size() / 2]) / 2;

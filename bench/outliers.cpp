@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What one extreme pair or particle costs all others: a crowd of discs, or spheres, without and with one long bond, one huge
-// particle, one fast particle. Prints time, candidates, searches and the chosen time step; exit status 1 when a
-// touching pair is missing among the candidates, or one outlier brings a tenth more candidates or searches,
-// or a step that is a tenth shorter.
+// Cost of one extreme pair or particle for all others: a crowd of discs or spheres without outlier, with one long bond,
+// one huge particle or one fast particle. Prints time, candidates, searches and the chosen time step. Exit status 1 if
+// a touching pair is missing among the candidates, or if an outlier adds a tenth to candidates or searches, or shortens
+// the step by a tenth.
 
 #include <algorithm>
 #include <chrono>
@@ -32,7 +32,7 @@ constexpr double radius = 0.5, spacing = 1.02, step_length = 2e-4, huge_radius =
 template <int Dim>
 struct model : lacuna::default_model<Dim> {};
 
-/// A crowd that swarms in its box, `side` particles long, and one particle above it.
+/// A crowd in random motion, `side` particles long, and one particle above it.
 template <int Dim>
 std::unique_ptr<lacuna::simulation<model<Dim>>> make(int side, outlier what, int threads) {
     lacuna::packing<double, Dim> p;
@@ -53,7 +53,7 @@ std::unique_ptr<lacuna::simulation<model<Dim>>> make(int side, outlier what, int
     above[1] = spacing * side + one;
     if constexpr (Dim == 3) above[2] = spacing * side / 2;
     p.add(above, one);
-    // Bonds are what this one is compared with: all others have one as well.
+    // The cases without a long bond need bonds, too, for a fair comparison.
     for (int y = 0; y < side; ++y) p.bonds.push_back({y * side, y * side + 1});
     if (what == outlier::long_bond) p.bonds.push_back({0, std::int32_t(crowd) - 1});
 
@@ -65,7 +65,8 @@ std::unique_ptr<lacuna::simulation<model<Dim>>> make(int side, outlier what, int
     s.interactions.skin = 0.4;
     s.threads = threads;
     if (what == outlier::long_bond) {
-        // A soft tether: with shear stiffness the levers of half its length would turn its ends much faster than all else moves.
+        // No shear stiffness: levers of half the bond's length would rotate its ends much faster than anything else
+        // moves.
         s.bonds.resize(p.bonds.size());
         s.bonds.back().normal_stiffness = 1e3;
         s.bonds.back().shear_stiffness = 0;
@@ -87,12 +88,13 @@ std::unique_ptr<lacuna::simulation<model<Dim>>> make(int side, outlier what, int
 }
 
 struct found {
-    double nanoseconds = 0, step = 0; ///< of a particle and step; s
+    double nanoseconds = 0; ///< per particle and step
+    double step = 0;        ///< chosen time step, s
     std::size_t candidates = 0, missing = 0;
     long long searches = 0;
 };
 
-/// The numbers that the simulation gives to the particles of a packing.
+/// The internal indices of the particles in a new simulation.
 template <int Dim>
 std::vector<std::int32_t> numbers(lacuna::simulation<model<Dim>> const& sim) {
     std::vector<lacuna::vec<double, Dim>> at;
@@ -132,7 +134,7 @@ std::size_t missing_pairs(lacuna::simulation<model<Dim>> const& sim, std::vector
     return missing;
 }
 
-/// Of the processor; of the clock on the wall where threads share the work.
+/// Processor time, s; with several threads wall-clock time.
 double seconds(int threads) {
     if (threads == 1) return double(std::clock()) / CLOCKS_PER_SEC;
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();

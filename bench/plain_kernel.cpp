@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// A yardstick: one fully bonded regular sheet, written by hand for this one case. Arrays for each quantity, one loop over
-// pairs and one over particles that gathers its pairs' forces, both without a branch, left to the compiler to vectorise.
-// No neighbours, no materials, no history but the forces; it shows what the machine gives to such a loop.
+// A yardstick: one fully bonded regular sheet, written by hand for this case. One array per quantity, one loop over
+// pairs and one loop over particles that gathers the forces of its pairs. Both have no branch, and the compiler
+// vectorises them. There are no neighbour lists, no materials and no history but the forces. It shows the speed of such
+// a loop here.
 //
 //   bench_plain_kernel [particles [seconds [double|float]]]: prints one line of JSON
 
@@ -65,7 +66,7 @@ private:
             for (int const above : {column - 1 + row % 2, column + row % 2})
                 if (above >= 0 && above < columns_) join(k, std::size_t(row + 1) * std::size_t(columns_) + std::size_t(above));
         }
-        // The pair after the last has no force: it stands where a particle has fewer than three of a kind.
+        // The pair after the last has no force: it fills the list of a particle with fewer than three pairs of a kind.
         std::size_t const none = pairs();
         for (auto* column : {&fx_, &fy_, &shear_}) column->assign(none + 1, Real(0));
         normal_.assign(none, Real(0));

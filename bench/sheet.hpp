@@ -16,14 +16,14 @@
 #include <lacuna/particles/packing.hpp>
 
 /// \file
-/// The sheet of discs on which step rates are measured: random radii on a hexagonal topology, squeezed, its disorder
-/// relaxed. Bottom and sides are held; the top row carries the force with which the squeezed sheet pushes against it.
-/// Units are free: length 1, mass 1, time 1.
+/// The sheet of discs on which step rates are measured: random radii on a hexagonal topology, squeezed and relaxed.
+/// Bottom and sides are held. The top row carries the force with which the squeezed sheet pushes against it.
+/// Units are dimensionless: length 1, mass 1, time 1.
 
 namespace bench {
 
-/// What the discs of a sheet do to each other. Rows of even number are the chains of `half`.
-/// The last two are of a block of spheres.
+/// A workload: bonds, contacts and pores of a sheet. In `half`, only rows with even numbers are bonded. The last two
+/// workloads use a block of spheres.
 enum class work { full, half, frictional, half_fluid, full3, frictional3 };
 
 inline constexpr std::array<char const*, 6> work_names{"full", "half", "frictional", "half_fluid", "full3", "frictional3"};
@@ -36,17 +36,17 @@ inline work parse_work(std::string const& name) {
     throw std::invalid_argument("work: '" + name + "', must be one of full, half, frictional, half_fluid, full3, frictional3");
 }
 
-/// Constants of the work, for Lacuna and LAMMPS alike.
+/// Constants of all workloads, for Lacuna and LAMMPS alike.
 struct sheet_constants {
     double normal_stiffness = 20, shear_stiffness = 10, friction = 0.1;
     double smallest_radius = 1.5, largest_radius = 2;
-    double spacing = 3.3; ///< of the squeezed lattice; unstressed it would be 3.5
+    double spacing = 3.3; ///< of the squeezed lattice; without stress it would be 3.5
     double jitter = 0.01;
     double time_step = 0.08;
-    double skin = 1.2; ///< of the neighbour lists; second neighbours on the lattice stay beyond it
+    double skin = 1.2; ///< of the neighbour lists; excludes second neighbours on the lattice
 };
 
-/// A packing with rows and columns: disc number row * columns + column.
+/// A sheet with rows and columns; the index of a disc is row * columns + column.
 struct sheet {
     static constexpr int dim = 2;
     int columns = 0, rows = 0;
@@ -61,7 +61,7 @@ struct sheet {
     }
     bool loaded(std::size_t k) const noexcept { return !held(k) && int(k) / columns == rows - 1; }
 
-    /// Calls visit(i, j) for each pair of lattice neighbours; in_row: both in one row.
+    /// Calls visit(i, j, in_row) for each pair of lattice neighbours. in_row: both are in one row.
     template <class Visit>
     void for_each_neighbour_pair(Visit const& visit) const {
         for (int row = 0; row < rows; ++row)
@@ -76,11 +76,11 @@ struct sheet {
     }
 };
 
-/// What can be said of a sheet at a glance.
+/// Statistics of a sheet or block.
 struct sheet_statistics {
     std::size_t contacts = 0;
-    double contacts_per_disc = 0, mean_overlap = 0; ///< overlap over the sum of the radii
-    double residual = 0; ///< root mean square of the force left on a free disc over the mean contact force
+    double contacts_per_disc = 0, mean_overlap = 0; ///< overlap divided by the sum of the radii
+    double residual = 0; ///< root mean square of the net force on free discs, divided by the mean contact force
 };
 
 namespace detail {
@@ -94,8 +94,8 @@ inline std::array<int, 2> sheet_shape(std::size_t particles) {
     return {std::max(4, int(std::lround(double(particles) / rows))), rows};
 }
 
-/// Forces on the inner discs of one row from their lattice neighbours, the nearest six and the six behind these: where
-/// the disorder makes a disc slip through between two others, the ones behind stop it.
+/// Forces on the inner discs of one row from their twelve nearest lattice neighbours. The outer six stop a disc that
+/// slips between two of the inner six.
 inline void row_forces(sheet const& s, int row, double stiffness, double* fx, double* fy) {
     std::ptrdiff_t const n = s.columns, base = std::ptrdiff_t(row) * n, diagonal = row % 2 ? 0 : -1;
     double const *x = s.x.data() + base, *y = s.y.data() + base, *r = s.radius.data() + base;
@@ -143,14 +143,12 @@ inline sheet_statistics measure(sheet const& s, sheet_constants const& c = {}) {
     return found;
 }
 
-/// Makes a sheet of about `particles` discs (exactly 3,200, 100,000 or 1,000,000 for these): the same bits each time.
-///
-/// The inner discs move down their energy of overlap by FIRE (Bitzek et al. 2006: steps along the motion while it
-/// goes downhill, a stop when it does not), with the top row held; its reaction becomes the load.
-inline sheet make_sheet(std::size_t particles, sheet_constants const& c = {}, int iterations = 200,
-                        std::uint64_t seed = 2024) {
+namespace detail {
+
+/// A squeezed sheet with random radii, whose inner discs are displaced at random; without a load.
+inline sheet disordered_sheet(std::size_t particles, sheet_constants const& c, std::uint64_t seed) {
     sheet s;
-    auto const shape = detail::sheet_shape(particles);
+    auto const shape = sheet_shape(particles);
     s.columns = shape[0];
     s.rows = shape[1];
     auto const count = std::size_t(s.columns) * std::size_t(s.rows);
@@ -169,8 +167,13 @@ inline sheet make_sheet(std::size_t particles, sheet_constants const& c = {}, in
             s.x.push_back(c.spacing * (column + 0.5 * (row % 2)) + a);
             s.y.push_back(height * row + b);
         }
+    return s;
+}
 
-    // Unit mass and the stiffness in units of it: the stiffest mode of the lattice then has omega^2 near 6 k / m.
+/// Relaxes the inner discs by FIRE (Bitzek et al. 2006): steps along the motion while the energy falls, a stop when it
+/// rises. Mass and stiffness are 1; omega^2 of the stiffest mode of the lattice is then near 6.
+inline void relax(sheet& s, int iterations) {
+    auto const count = s.size();
     std::vector<double> vx(count, 0), vy(count, 0), fx(count, 0), fy(count, 0);
     double step = 0.2, mix = 0.1;
     int downhill = 0;
@@ -178,7 +181,7 @@ inline sheet make_sheet(std::size_t particles, sheet_constants const& c = {}, in
         double power = 0, speed = 0, force = 0;
         for (int row = 1; row < s.rows - 1; ++row) {
             auto const base = std::size_t(row) * std::size_t(s.columns);
-            detail::row_forces(s, row, 1, fx.data() + base, fy.data() + base);
+            row_forces(s, row, 1, fx.data() + base, fy.data() + base);
             for (std::size_t k = base + 1; k + 1 < base + std::size_t(s.columns); ++k) {
                 power += fx[k] * vx[k] + fy[k] * vy[k];
                 speed += vx[k] * vx[k] + vy[k] * vy[k];
@@ -187,7 +190,7 @@ inline sheet make_sheet(std::size_t particles, sheet_constants const& c = {}, in
         }
         bool const down = power > 0;
         double const keep = down ? 1 - mix : 0;
-        double const turn = (down && force > 0 ? mix * std::sqrt(speed / force) : 0) + step;
+        double const mixed = (down && force > 0 ? mix * std::sqrt(speed / force) : 0) + step;
         if (!down) {
             step *= 0.5;
             mix = 0.1;
@@ -199,14 +202,23 @@ inline sheet make_sheet(std::size_t particles, sheet_constants const& c = {}, in
         for (int row = 1; row < s.rows - 1; ++row) {
             auto const base = std::size_t(row) * std::size_t(s.columns);
             for (std::size_t k = base + 1; k + 1 < base + std::size_t(s.columns); ++k) {
-                vx[k] = keep * vx[k] + turn * fx[k];
-                vy[k] = keep * vy[k] + turn * fy[k];
+                vx[k] = keep * vx[k] + mixed * fx[k];
+                vy[k] = keep * vy[k] + mixed * fy[k];
                 s.x[k] += step * vx[k];
                 s.y[k] += step * vy[k];
             }
         }
     }
+}
 
+} // namespace detail
+
+/// Makes a sheet of about `particles` discs; 3,200, 100,000 and 1,000,000 are exact. The result has the same bits each
+/// time. The top row is held during relaxation; its reaction becomes the load.
+inline sheet make_sheet(std::size_t particles, sheet_constants const& c = {}, int iterations = 200,
+                        std::uint64_t seed = 2024) {
+    sheet s = detail::disordered_sheet(particles, c, seed);
+    detail::relax(s, iterations);
     double reaction = 0;
     s.for_each_neighbour_pair([&](std::int32_t i, std::int32_t j, bool) {
         auto const a = std::size_t(i), b = std::size_t(j);
@@ -218,7 +230,7 @@ inline sheet make_sheet(std::size_t particles, sheet_constants const& c = {}, in
     return s;
 }
 
-/// The sheet as the library takes it: bonds as the work has them, discs in the order of the rows.
+/// The sheet as a packing of the library, with the bonds of a workload and discs in the order of the rows.
 template <class Real>
 lacuna::packing<Real, 2> to_packing(sheet const& s, work w) {
     lacuna::packing<Real, 2> result;
@@ -226,7 +238,7 @@ lacuna::packing<Real, 2> to_packing(sheet const& s, work w) {
     if (w == work::frictional) return result;
     s.for_each_neighbour_pair([&](std::int32_t i, std::int32_t j, bool in_row) {
         auto const a = std::size_t(i), b = std::size_t(j);
-        // Wide gaps between neighbours (there are few) are not bridged.
+        // The few neighbours with a wide gap are not bonded.
         double const gap = std::hypot(s.x[a] - s.x[b], s.y[a] - s.y[b]) / (s.radius[a] + s.radius[b]) - 1;
         if (gap > 0.02) return;
         if (w == work::full || (in_row && int(i) / s.columns % 2 == 0)) result.bonds.push_back({i, j});
@@ -234,9 +246,9 @@ lacuna::packing<Real, 2> to_packing(sheet const& s, work w) {
     return result;
 }
 
-/// Writes the sheet for LAMMPS (atom_style sphere). Types: 1 free, 2 held, 3 loaded. The first line carries what the
-/// format has no place for: columns, rows, load.
-/// \throws std::runtime_error when the file cannot be written
+/// Writes the sheet for LAMMPS (atom_style sphere). Types: 1 free, 2 held, 3 loaded. A comment in the first line holds
+/// columns, rows and load.
+/// \throws std::runtime_error if the file cannot be written
 inline void write_lammps(sheet const& s, std::string const& path) {
     std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "w"), &std::fclose);
     if (!file) throw std::runtime_error("cannot write " + path);
@@ -258,7 +270,7 @@ inline void write_lammps(sheet const& s, std::string const& path) {
 }
 
 /// Reads a sheet that write_lammps() wrote.
-/// \throws std::runtime_error when the file is missing or not of that kind
+/// \throws std::runtime_error if the file is missing or has another format
 inline sheet read_lammps(std::string const& path) {
     std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "r"), &std::fclose);
     if (!file) throw std::runtime_error("cannot read " + path);

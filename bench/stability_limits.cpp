@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The largest stable time step of small systems, found by running them: the step is halved into a bracket between runs
-// whose small random motion stays bounded and runs in which it grows. Beside it stand the paper's eq. 9 and eq. 19, the
-// library's rigorous bound and, where there is one, the value from theory. Lattices have unit mass, unit spacing and
-// unit normal stiffness; theirs is the unit of time, sqrt(m / k_n).
+// Measures the largest stable time step of small systems by bisection between runs whose small random motion stays
+// bounded and runs in which it grows. Compares it with eq. 9 and eq. 19 of the paper, the library's rigorous bound and,
+// if there is one, the value from theory. Lattices have mass 1, spacing 1 and normal stiffness 1, so the unit of time
+// is sqrt(m / k_n).
 //   bench_stability_limits [--json]
-// Exit status 1 when a rigorous bound is above the limit measured, or that is off its theory by more than 1 %.
+// Exit status 1 if a rigorous bound exceeds the measured limit, or if the limit differs from theory by more than 1 %.
 
 #include <algorithm>
 #include <array>
@@ -55,7 +55,7 @@ private:
     std::mt19937_64 generator_{11};
 };
 
-/// The largest step for which stable(step) holds, to 1 part in 3000; `guess` only sets where to begin.
+/// The largest step for which stable(step) holds, to 1 part in 3000. \param guess start of the search
 template <class Stable>
 double bisect(double guess, Stable const& stable) {
     double low = guess, high = guess;
@@ -81,7 +81,7 @@ double bisect(double guess, Stable const& stable) {
 using packing = lacuna::packing<double, 2>;
 using block = lacuna::packing<double, 3>;
 
-/// Rows of touching discs of diameter 1, neighbours bonded; `shift` of every second row: 0 square, 0.5 triangular.
+/// Rows of touching, bonded discs of diameter 1. \param shift of every second row: 0 square, 0.5 triangular lattice
 packing lattice(int columns, int rows, double shift) {
     packing p;
     double const height = std::sqrt(1 - shift * shift);
@@ -103,8 +103,8 @@ packing lattice(int columns, int rows, double shift) {
     return p;
 }
 
-/// A cube of touching spheres of diameter 1, neighbours bonded: simple cubic or face-centred cubic.
-/// \param sites of the cubic grid on which they lie, along each axis; a face-centred lattice has every second one
+/// A cube of touching, bonded spheres of diameter 1: simple cubic or face-centred cubic.
+/// \param sites of the cubic grid along each axis; a face-centred lattice uses every second site
 block cube(int sites, bool face_centred) {
     block p;
     double const spacing = face_centred ? std::sqrt(0.5) : 1;
@@ -148,7 +148,7 @@ lacuna::simulation_parameters<Model> parameters_of(setting const& s, double time
     p.materials[0].bond = {1, s.shear_stiffness};
     p.time_step = time_step;
     p.allow_unstable_step = true;
-    // Neighbours are bonded; nothing else comes near.
+    // Neighbours are bonded, and no other particles come into contact.
     p.interactions.skin = 1e-3;
     if constexpr (lacuna::has_fluid<Model>) {
         p.flow.bulk_modulus = s.fluid_stiffness;
@@ -170,7 +170,7 @@ lacuna::simulation<Model> make(lacuna::packing<double, Model::dim> const& body, 
     return sim;
 }
 
-/// Whether a random motion of 1e-9 stays below 1e-4: a mode that is a thousandth above the limit grows by 9 % a step.
+/// Whether a random motion of 1e-9 stays below 1e-4. A thousandth above the limit a mode grows by 9 % per step.
 template <class Model>
 bool stays_bounded(lacuna::packing<double, Model::dim> const& body, setting const& s, double time_step) {
     auto sim = make<Model>(body, s, time_step);
@@ -272,7 +272,7 @@ double triangular_wave_limit(double shear_stiffness, double fluid_stiffness) {
 
 /// A line of pores ----------------------------------------------------------------------------------------------------
 
-/// Pores of volume 1 in a row, fluid of modulus 1, throats of length 1, the first and last pore closed.
+/// Pores of volume 1 in a row, fluid of modulus 1, throats of length 1. The first and the last pore are closed.
 row pore_line(std::string name, std::vector<double> const& apertures, double theory) {
     using aperture = lacuna::constant_aperture;
     std::vector<lacuna::bare_throat<double>> throats;
@@ -309,7 +309,7 @@ std::vector<double> alternating(std::size_t count, double a, double b) {
     return list;
 }
 
-/// The sheet of the step rates in units of its stiffness, all bonded.
+/// The sheet of the step rates, fully bonded, in units of its stiffness.
 packing disordered() {
     auto const s = bench::make_sheet(600);
     auto body = bench::to_packing<double>(s, bench::work::full);
@@ -318,7 +318,7 @@ packing disordered() {
     return body;
 }
 
-/// A lattice whose omega_max^2, infinite, is known from its plane waves, rotating or not.
+/// A lattice whose omega_max^2 is known from plane waves in the infinite lattice, with or without rotation.
 template <int Dim>
 struct known_lattice {
     char const* name;
@@ -357,7 +357,7 @@ std::vector<row> measure_all() {
         std::snprintf(name, sizeof name, "triangular, k_s = k_n, undrained, K_f t = %g k_n", fluid);
         rows.push_back(measure<wet>(name, lattice(24, 24, 0.5), {1, true, fluid, 0}, triangular_wave_limit(1, fluid)));
     }
-    // A line of equal throats: dt = V / (2 K_f C); of two kinds in turn: V / (K_f (C_1 + C_2)).
+    // A line of equal throats: dt = V / (2 K_f C); of two alternating kinds: V / (K_f (C_1 + C_2)).
     rows.push_back(pore_line("line of pores, equal throats", std::vector<double>(100, 1.0), 0.5));
     rows.push_back(pore_line("line of pores, apertures 1 and 2 in turn", alternating(101, 1, 2), 1.0 / 9));
     rows.push_back(pore_line("line of pores, apertures 0.1 and 1 in turn", alternating(101, 0.1, 1), 1 / 1.001));

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Particle-steps a second of the four works, in double and single precision, at 3,200 and 100,000 particles, and with
-// --million also at 1,000,000 (full, double). Each case checks its physics after it was timed; the exit status is 1
-// when a check fails, whatever the times are.
+// Particle-steps per second of the four workloads in the plane, in double and single precision, with 3,200 and 100,000
+// particles; with --million also 1,000,000 (full, double). Each case checks its physics after timing. The exit status
+// is 1 if a check fails; it does not depend on times.
 //   bench_step_rate [--million] [options of Google Benchmark, such as --benchmark_out=FILE --benchmark_filter=full]
 
 #include <benchmark/benchmark.h>
@@ -27,7 +27,7 @@ bench::sheet const& sheet_of(std::size_t particles) {
 
 template <class Model>
 void step_rate(benchmark::State& state, bench::work w, std::size_t particles) {
-    // Steps in one iteration: some tens of milliseconds, within which the lists are rebuilt as often as they need.
+    // Steps per iteration: some tens of milliseconds, which include the usual rebuilds of the lists.
     auto const batch = std::max(5LL, 800000LL / (long long)particles);
     bench::work_run<Model> run(sheet_of(particles), w);
     for (auto _ : state) run.run(batch);
@@ -78,7 +78,7 @@ int main(int count, char** arguments) {
     benchmark::AddCustomContext("threads", "1");
     for (std::size_t const particles : {3200, 100000})
         for (std::size_t w = 0; w < bench::work_names.size(); ++w) {
-            if (bench::in_space(bench::work(w))) continue; // bench_one_work has these
+            if (bench::in_space(bench::work(w))) continue; // see bench_one_work
             add<double>(bench::work(w), particles);
             add<float>(bench::work(w), particles);
         }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What more cores give: one run of 100,000 particles on one thread and on several, and as many runs of 3,200 side by side
-// as there are cores, one thread each. Rounds alternate; medians are printed. Exit status 1 when the number of threads
-// or the neighbouring run changes a single bit of the outcome, whatever the times are.
+// Gain from several cores: one run of 100,000 particles on one thread and on several threads, and one run of 3,200
+// particles per core side by side, each on one thread. Rounds alternate; prints medians. Exit status 1 if the number of
+// threads or another run changes a single bit of the results; it does not depend on times.
 //   bench_threads [--threads N] [--rounds N] [--json]
 
 #include <algorithm>
@@ -36,7 +36,7 @@ std::uint64_t fingerprint(lacuna::simulation<model> const& sim) {
     return hash;
 }
 
-/// One set of runs side by side, each on `threads` threads: particle-steps a second of all, and one fingerprint each.
+/// Total particle-steps per second of several runs side by side, and a fingerprint of each.
 struct outcome {
     double rate = 0;
     std::vector<std::uint64_t> bits;

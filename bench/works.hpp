@@ -19,33 +19,33 @@
 #include "sheet.hpp"
 
 /// \file
-/// The works as simulations, and the checks of their physics that follow each timing.
+/// Workloads as simulations, and checks of their physics after each timing.
 
 namespace bench {
 
-/// Bonds and friction, both as types in the simulator whatever the work uses of them.
+/// Model with bonds and friction, also for workloads that use only one of them.
 template <class Real, int Dim = 2>
 struct dry_model : lacuna::default_model<Dim, Real> {};
-/// The same with pores, whose flow is solved in every step.
+/// Model with bonds, friction and pores, whose flow is solved in every step.
 template <class Real>
 struct wet_model : lacuna::default_model<2, Real> {
     using flow = lacuna::explicit_flow;
 };
 
-/// Constants of the fluid: soft enough for the time step of the works, and open enough that pressures move by several
-/// pores within a run.
+/// Constants of the fluid. It is soft enough for the time step of the workloads, and throats are wide enough for
+/// pressures to spread over several pores in a run.
 struct fluid_constants {
     double bulk_modulus = 0.1, initial_pressure = 0.02;
     double conductivity = 0.1, residual_aperture = 0.3, half_force = 10;
-    /// The squeezed discs leave little room between them: most pores rest at this share of their triangle.
+    /// Squeezed discs leave little space between them: most pores have this minimum share of their triangle.
     double minimum_volume_fraction = 0.05;
 };
 
-/// Thickness of the discs, with which a disc of mean radius weighs as much as a sphere, the particle of LAMMPS.
+/// Thickness of the discs. A disc of mean radius then has the mass of a sphere, the particle of LAMMPS.
 inline constexpr double sheet_thickness = 4.0 / 3 * 1.75;
 
-/// Part of the sheet's load that a work carries. Bonds start without force, so that a fully bonded sheet would be struck
-/// by all of it.
+/// Share of the load in a workload. Bonds start without force, so the full load would act on a fully bonded sheet like
+/// an impact.
 inline double load_share(work w) { return w == work::full || w == work::full3 ? 0.05 : 1; }
 
 template <class Model>
@@ -55,10 +55,10 @@ lacuna::simulation_parameters<Model> work_parameters(int threads = 1) {
     p.materials.resize(1);
     p.materials[0].density = 1;
     p.materials[0].contact = {c.normal_stiffness, c.shear_stiffness, c.friction};
-    // Failure is tested for in every step; the strength is far beyond what the load brings.
+    // Failure is tested in every step, but the strength is far above all stresses.
     p.materials[0].bond = {c.normal_stiffness, c.shear_stiffness, 1e3, 1e3};
     if (Model::dim == 2) p.thickness = sheet_thickness;
-    p.keep_pair_forces = false; // no work reads the force of a single pair
+    p.keep_pair_forces = false; // no workload reads the force of a single pair
     p.time_step = c.time_step;
     p.interactions.skin = c.skin / (0.5 * (c.smallest_radius + c.largest_radius));
     p.threads = threads;
@@ -75,8 +75,9 @@ lacuna::simulation_parameters<Model> work_parameters(int threads = 1) {
     return p;
 }
 
+/// Makes the simulation of a workload.
 /// \param s sheet or block
-/// \param free no disc held and none loaded: momentum is then conserved
+/// \param free no particle is held or loaded, so that momentum is conserved
 template <class Model, class Body>
 lacuna::simulation<Model> make_simulation(Body const& s, work w, int threads = 1, bool free = false) {
     using real = typename Model::real;
@@ -99,14 +100,15 @@ lacuna::simulation<Model> make_simulation(Body const& s, work w, int threads = 1
     return sim;
 }
 
-/// Energy of a simulation, load included; takes one step.
+/// Energies of a simulation, with the potential of the load.
 struct energy_state {
     double total = 0;  ///< kinetic + strain + fluid + potential of the load
     double stored = 0; ///< kinetic + strain + fluid
 };
+/// Takes one step and returns its energies.
 template <class Model, class Body>
 energy_state energy_of(lacuna::simulation<Model>& sim, Body const& s, work w) {
-    // The ledger is that of the positions at which the forces were found: those before the step.
+    // The ledger belongs to the positions before the step, where the forces were computed.
     double raised = 0;
     for (std::size_t k = 0; k < s.size(); ++k)
         if (s.loaded(k)) raised += sim.position(k)[1] - s.y[k];
@@ -121,7 +123,8 @@ energy_state energy_of(lacuna::simulation<Model>& sim, Body const& s, work w) {
 /// Outcome of the checks.
 struct verdict {
     bool good = true;
-    std::string why; ///< empty, or what failed
+    std::string why; ///< the failed checks, or empty
+    /// Records a failed check. \param what name of the quantity
     void demand(bool condition, std::string const& what, double value, double limit) {
         if (condition) return;
         good = false;
@@ -129,17 +132,17 @@ struct verdict {
     }
 };
 
-/// One timed run of a work, after a few steps to warm up, and what its checks found.
+/// One timed run of a workload after a warm-up, and the results of its checks.
 struct timing {
     double seconds = 0;
-    double cpu_seconds = 0; ///< of all threads; less disturbed than seconds by what else runs on the machine
+    double cpu_seconds = 0; ///< of all threads; other programs on the machine disturb it less than `seconds`
     long long steps = 0;
-    double resident_mb = 0; ///< memory in use after the last run, with the sheet and what the program itself takes; see machine.hpp
+    double resident_mb = 0; ///< memory in use after the last run, with sheet and program, MiB; see resident_mb()
     std::size_t particles = 0, pairs = 0, bonds = 0, contacts = 0, open_throats = 0, active_throats = 0;
     long long rebuilds = 0;
-    double energy_drift = 0;   ///< change of the total energy over the energy stored
-    double ledger_residual = 0; ///< of the energy ledger over its largest term
-    double momentum_drift = 0; ///< of a free sheet, over the sum of its particles' momenta
+    double energy_drift = 0;   ///< change of the total energy divided by the stored energy
+    double ledger_residual = 0; ///< of the energy ledger, divided by its largest term
+    double momentum_drift = 0; ///< of a free sheet, divided by the sum of its particles' momenta
     verdict found;
     double rate() const { return double(particles) * double(steps) / seconds; }
     double nanoseconds_per_pair() const { return seconds * 1e9 / (double(pairs) * double(steps)); }
@@ -158,20 +161,20 @@ momenta<Model::dim> momenta_of(lacuna::simulation<Model> const& sim) {
     for (std::size_t k = 0; k < sim.size(); ++k) {
         auto const x = sim.position(k), v = sim.velocity(k);
         double const m = sim.mass(k);
-        auto const turn = sim.spin(k) * sim.moment_of_inertia(k);
+        auto const own = sim.spin(k) * sim.moment_of_inertia(k);
         sum.momentum += v * m;
-        sum.spin += turn;
+        sum.spin += own;
         if constexpr (Model::dim == 2)
             sum.spin[0] += m * cross(x, v);
         else
             sum.spin += cross(x, v) * m;
         sum.linear += m * norm(v);
-        sum.angular += m * norm(x) * norm(v) + norm(turn);
+        sum.angular += m * norm(x) * norm(v) + norm(own);
     }
     return sum;
 }
 
-/// Change of the momentum of a small sheet or block in random motion that nothing holds: zero but for rounding.
+/// Relative change of momentum of a small, free sheet or block in random motion: zero but for rounding.
 template <class Model>
 double momentum_drift(work w) {
     auto sim = [&] {
@@ -186,11 +189,11 @@ double momentum_drift(work w) {
     };
     for (std::size_t k = 0; k < sim.size(); ++k) {
         lacuna::vec<double, Model::dim> v{};
-        lacuna::vec<double, lacuna::rotation_dim<Model::dim>> turn{};
+        lacuna::vec<double, lacuna::rotation_dim<Model::dim>> spin{};
         random(v);
-        random(turn);
+        random(spin);
         sim.set_velocity(k, v);
-        sim.set_spin(k, turn);
+        sim.set_spin(k, spin);
     }
     auto const before = momenta_of(sim);
     sim.run(300);
@@ -199,7 +202,7 @@ double momentum_drift(work w) {
     return std::max(norm(after.momentum - before.momentum) / linear, norm(after.spin - before.spin) / angular);
 }
 
-/// Pairs that the step works on, padding of the packs left out.
+/// Number of pairs in a table without padding.
 template <class Table>
 std::size_t count_pairs(Table const& table, std::size_t particles) {
     std::size_t count = 0;
@@ -207,19 +210,19 @@ std::size_t count_pairs(Table const& table, std::size_t particles) {
     return count;
 }
 
-/// A work that has been set up and warmed up, and can be timed in parts.
+/// A workload after set-up and warm-up, ready to be timed in parts.
 /// \tparam Body sheet or block
 template <class Model, class Body = sheet>
 class work_run {
 public:
-    /// \param s is referred to
+    /// \param s must outlive this object
     work_run(Body const& s, work w, int threads = 1)
         : sheet_(s), work_(w), sim_(make_simulation<Model>(s, w, threads)) {
         auto const limits = sim_.limits();
         result_.found.demand(sim_.settings().time_step <= limits.critical(), "time step above the stable limit",
                              sim_.settings().time_step, limits.critical());
         begin_ = energy_of(sim_, sheet_, work_);
-        // Throats that a short run would leave idle are in use: the announced run is long.
+        // Warm-up.
         sim_.run(few(200));
         rebuilds_ = sim_.pairs().neighbors().build_count();
     }
@@ -236,7 +239,7 @@ public:
 
     lacuna::simulation<Model> const& simulation() const { return sim_; }
 
-    /// Checks what the timed run has left behind.
+    /// Checks the physics after the timed runs. \return timing and results
     timing finish() {
         bool const single = sizeof(typename Model::real) == 4;
         auto& r = result_;
@@ -250,7 +253,7 @@ public:
         double const scale = std::max(begin_.stored, end.stored);
         r.energy_drift = (end.total - begin_.total) / scale;
         r.found.demand(std::isfinite(end.total), "energy", end.total, 0);
-        // Friction and outflow take energy out; nothing may bring it in.
+        // Friction and outflow remove energy; nothing may add any.
         double const tolerance = single ? 0.01 : 0.005;
         r.found.demand(r.energy_drift <= tolerance, "energy gained", r.energy_drift, tolerance);
         if (work_ == work::full || work_ == work::full3)
@@ -282,7 +285,7 @@ public:
     }
 
 private:
-    /// A number of steps besides the timed ones, less for large sheets.
+    /// Number of untimed steps: `most`, less for large sheets.
     long long few(long long most) const { return std::clamp(most * 3200 / (long long)sheet_.size(), 5LL, most); }
 
     Body const& sheet_;
