@@ -315,7 +315,7 @@ public:
         set_up_record found = set_up_;
         if (filled()) {
             auto const now = hash_of_fluid(fluid_.get()->network());
-            if (now != found.fluid || told_pressures(*fluid_.get())) found.call(set_up::fluid);
+            if (now != found.fluid || fluid_values_were_set(*fluid_.get())) found.call(set_up::fluid);
             if (found.was_called(set_up::fluid)) found.result[std::size_t(set_up::fluid)] = now;
         }
         sum_up_particles(found);
@@ -381,9 +381,9 @@ private:
         if (to.was_called(set_up::velocities)) to.result[std::size_t(set_up::velocities)] = speeds;
     }
     template <class Flow>
-    static bool told_pressures(Flow const& flow) noexcept {
-        if constexpr (requires { flow.told(); })
-            return flow.told();
+    static bool fluid_values_were_set(Flow const& flow) noexcept {
+        if constexpr (requires { flow.values_were_set(); })
+            return flow.values_were_set();
         else
             return false;
     }

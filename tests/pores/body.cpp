@@ -130,7 +130,7 @@ TEST_CASE("a uniform pressure in a hexagon of discs pushes its rim, not its midd
     REQUIRE(flow.network().throats() == 12);
     for (std::size_t k = 0; k < 6; ++k) {
         REQUIRE_THAT(flow.network().volume[k], WithinRel(reference("9a.three_equal", "area/R^2"), 1e-11));
-        REQUIRE(flow.network().place[k] == pore_place::sealed);
+        REQUIRE(flow.network().location[k] == pore_location::sealed);
         flow.set_pressure(k, 2.5);
     }
     auto const force = b.tractions(flow);

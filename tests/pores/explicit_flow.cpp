@@ -113,8 +113,8 @@ TEST_CASE("a line of pores drains through its end") {
     auto flow = make_solver(std::vector<double>(10, 1.0), list);
     for (std::size_t i = 0; i < 10; ++i) flow.set_pressure(i, 1);
     REQUIRE(error_of(flow, 20, 1e-3, reference_list("5a.drained_right_t=20")) < 1e-4);
-    REQUIRE(flow.network().place[9] == pore_place::drained);
-    REQUIRE(flow.network().place[0] == pore_place::interior);
+    REQUIRE(flow.network().location[9] == pore_location::drained);
+    REQUIRE(flow.network().location[0] == pore_location::interior);
 }
 
 TEST_CASE("a reservoir fills the pores to its pressure and no further") {

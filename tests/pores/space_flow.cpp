@@ -384,14 +384,14 @@ TEST_CASE("facets on the boundary of a cube: kinds, sides, areas, places of pore
     REQUIRE(2 * net.interior_throats + 6 * 18 == 4 * net.pores());
     for (std::size_t t = 0; t < net.throats(); ++t) {
         auto const one = std::size_t(net.throat_pore[0][t]);
-        if (t >= net.interior_throats) REQUIRE(net.place[one] != pore_place::interior);
+        if (t >= net.interior_throats) REQUIRE(net.location[one] != pore_location::interior);
         // Its particles turn counter-clockwise as seen from outside pore [0].
         auto const at = [&](std::size_t k) { return b.x[std::size_t(net.throat_particle[k][t])]; };
         point const inward = pore_middle(net, one, b.points()) - at(0);
         REQUIRE(dot(cross(at(1) - at(0), at(2) - at(0)), inward) < 0);
     }
     REQUIRE(find_pore(net, b.points(), pore_middle(net, 17, b.points())) == 17);
-    REQUIRE(net.place[find_pore(net, b.points(), point{-9, 3, 3})] == pore_place::sealed);
+    REQUIRE(net.location[find_pore(net, b.points(), point{-9, 3, 3})] == pore_location::sealed);
 }
 
 TEST_CASE("a flat tetrahedron is a pore at its least volume, of no force") {

@@ -50,7 +50,7 @@ public:
         if (pore >= network_.pores()) refuse("pore", double(pore), "a pore of the network");
         parameters_.require_pressure("pressure of pore " + std::to_string(pore), double(pressure));
         network_.pressure[pore] = pressure;
-        told_ = true;
+        values_set_ = true;
     }
     /// Changes the value that a source prescribes, Pa or m^3/s, from the next step on.
     /// \throws std::invalid_argument for a source that does not exist, a value that is not finite, or a pressure below
@@ -64,14 +64,14 @@ public:
         else
             require_finite(name, value);
         source.value = value;
-        told_ = true;
+        values_set_ = true;
         if (source.kind == flow_source_kind::rate) return;
         for (std::size_t d = 0; d < network_.drained_throats; ++d)
             if (network_.drained_source[d] == std::int32_t(number)) network_.drained_pressure[d] = Real(value);
     }
 
     /// Whether set_pressure() or set_source() was called.
-    bool told() const noexcept { return told_; }
+    bool values_were_set() const noexcept { return values_set_; }
 
     /// Updates the pore volumes. The next step still uses the change since the last step. step() calls it itself.
     /// \param points centres of all particles, m; \param radii of all particles, m
@@ -313,7 +313,7 @@ protected:
 
     parameters parameters_;
     Real thickness_;
-    bool told_ = false;
+    bool values_set_ = false;
     network_type network_;
     flow_ledger<Real> ledger_;
     source_exchange<Real> exchange_;

@@ -22,7 +22,7 @@
 namespace lacuna {
 
 /// Position of a pore: in the interior, or at the boundary; drained if at least one of its throats is.
-enum class pore_place : std::uint8_t { interior, sealed, drained };
+enum class pore_location : std::uint8_t { interior, sealed, drained };
 
 /// A throat of a bare network: between two pores, or from one pore to a reservoir (second = -1).
 template <class Real>
@@ -52,7 +52,7 @@ struct pore_network {
     /// Part of the volume without liquid in pores at the minimum pressure, m^3. Empty if the fluid has no minimum
     /// pressure; see vapour_of().
     padded_array<Real> vapour;
-    std::vector<pore_place> place;
+    std::vector<pore_location> location;
 
     std::array<padded_array<std::int32_t>, std::size_t(Dim)> throat_particle;
     std::array<padded_array<std::int32_t>, 2> throat_pore;
@@ -124,7 +124,7 @@ void finish(pore_network<Real, Dim>& net, std::vector<throat_record<Real, Dim>> 
     net.old_volume = net.volume;
     net.pressure.assign(pores, Real(0));
     net.vapour.assign(pores, Real(0));
-    net.place.assign(pores, pore_place::interior);
+    net.location.assign(pores, pore_location::interior);
     for (auto& column : net.throat_particle) column.assign(records.size(), 0);
     for (auto& column : net.throat_pore) column.assign(records.size(), 0);
     net.length.assign(records.size(), Real(0));
@@ -135,9 +135,9 @@ void finish(pore_network<Real, Dim>& net, std::vector<throat_record<Real, Dim>> 
         for (std::size_t side = 0; side < 2; ++side) net.throat_pore[side][t] = r.pore[side];
         net.length[t] = r.length;
         net.aperture[t] = r.aperture;
-        auto& position = net.place[std::size_t(r.pore[0])];
-        if (r.rank == 1) position = pore_place::drained;
-        if (r.rank == 2 && position == pore_place::interior) position = pore_place::sealed;
+        auto& position = net.location[std::size_t(r.pore[0])];
+        if (r.rank == 1) position = pore_location::drained;
+        if (r.rank == 2 && position == pore_location::interior) position = pore_location::sealed;
         if (r.rank == 1) net.drained_pressure.push_back(r.reservoir_pressure);
     }
     net.drained_source = connect_sources(net.sources, records);
