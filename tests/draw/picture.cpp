@@ -12,7 +12,7 @@
 
 namespace {
 
-/// Four particles on a 40 x 20 µm body: two bonded ones and two free ones.
+/// Four particles in a specimen of 40 x 20 µm: two bonded ones and two free ones.
 lacuna::scene small_scene() {
     lacuna::scene s;
     s.right = 40e-6;
@@ -44,7 +44,7 @@ public:
     lacuna::canvas::point page(double x, double y) const { return at_(x, y); }
     /// The colour at a point of the world (m).
     lacuna::color operator()(double x, double y) const { return pixel(at_(x, y)); }
-    /// How many pixels of a part of the page are darker than a light grey.
+    /// Number of pixels in a part of the page that are darker than a light grey.
     int dark(double left, double right, double low, double high) const {
         int count = 0;
         for (double y = std::floor(low); y < high; ++y)
@@ -74,7 +74,7 @@ bool close(lacuna::color const& a, lacuna::color const& b) {
 
 } // namespace
 
-TEST_CASE("the packing picture has each particle in its place and colour") {
+TEST_CASE("the picture of a packing has each particle in its position and colour") {
     auto const kinds = small_scene().kinds;
     drawn const picture(small_scene(), [](lacuna::canvas& c, lacuna::scene const& s) { lacuna::draw_packing(c, s); });
     CHECK(close(picture(5e-6, 5e-6), kinds[1].fill));
@@ -94,7 +94,7 @@ TEST_CASE("the damage picture shows pressures as colours and a break as a red da
     CHECK(close(picture(22e-6, 4e-6), {1, 1, 1}));
 }
 
-TEST_CASE("loads, walls, zones and words stand around the body, where there is room made for them") {
+TEST_CASE("loads, walls, zones and texts are around the specimen, in the margins made for them") {
     lacuna::picture_style const style;
     auto const draw = [](lacuna::canvas& c, lacuna::scene const& s) { lacuna::draw_packing(c, s); };
     auto s = small_scene();
@@ -107,7 +107,7 @@ TEST_CASE("loads, walls, zones and words stand around the body, where there is r
     s.bonds = {{{5e-6, 5e-6}, {13e-6, 5e-6}}};
     drawn const full(s, draw);
     auto const &page = full.layout(), &bare = plain.layout();
-    // A line of words in 1.45 text sizes, and arrows of 36 px above the body.
+    // A title in 1.45 text sizes, and arrows of 36 px above the specimen.
     CHECK(page.frame.low - bare.frame.low > 3 * style.text_size + 36);
     CHECK(full.dark(page.frame.left, page.frame.left + 60, 10, 32) > 20);
     CHECK(plain.dark(bare.frame.left, bare.frame.left + 60, 0, 32) == 0);
@@ -121,7 +121,7 @@ TEST_CASE("loads, walls, zones and words stand around the body, where there is r
     CHECK(full.dark(none[0] - 3, none[0] + 4, none[1] - 30, none[1] - 5) == 0);
     double const middle = 0.5 * (page.frame.left + page.frame.right);
     CHECK(full.dark(middle - 30, middle + 30, tip[1] - 36 - 1.5 * style.text_size, tip[1] - 36) > 20);
-    // The way along the wall is down: its solid side, hatched, is on the left of the page.
+    // The wall goes down: its solid side, hatched, is on the left of the page.
     auto const wall = full.page(-2e-6, 10e-6);
     CHECK(close(full.pixel(wall), style.ink));
     CHECK(full.dark(wall[0] - 12, wall[0] - 3, wall[1] - 20, wall[1] + 20) > 10);
@@ -136,7 +136,7 @@ TEST_CASE("loads, walls, zones and words stand around the body, where there is r
     CHECK(close(plain(7e-6, 5e-6), small_scene().kinds[1].fill));
 }
 
-TEST_CASE("words stand to the right of their place, about it, or to its left") {
+TEST_CASE("texts are to the right of their point, centred at it, or to its left") {
     using lacuna::text_align;
     auto const dark = [](text_align align, double left, double right) {
         lacuna::scene s = small_scene();
@@ -210,7 +210,7 @@ TEST_CASE("an impossible scene is refused by name") {
     CHECK_THROWS_WITH(lacuna::layout_of(flat, {}), contains_text("scene.top - bottom"));
 }
 
-TEST_CASE("lengths and pressures get the unit a person would choose") {
+TEST_CASE("lengths and pressures get a readable unit") {
     CHECK(lacuna::length_label(20e-6) == "20 µm");
     CHECK(lacuna::length_label(1e-3) == "1 mm");
     CHECK(lacuna::length_label(500e-9) == "500 nm");

@@ -45,7 +45,7 @@ TEST_CASE("colours: ends, middle and clamping") {
     CHECK_THROWS_WITH(lacuna::color_scale(0, INFINITY), contains_text("color_scale.high"));
 }
 
-TEST_CASE("the scale for measured values leaves outliers out and keeps zero in") {
+TEST_CASE("the scale for measured values excludes outliers and includes zero") {
     std::vector<double> values(1000, 2.0);
     values[17] = 1e9;
     lacuna::color_scale const positive = lacuna::robust_color_scale(values);

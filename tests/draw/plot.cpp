@@ -30,7 +30,7 @@ std::vector<std::string> labels_of(lacuna::plot_axis const& axis) {
 
 } // namespace
 
-TEST_CASE("a plot places values linearly and logarithmically") {
+TEST_CASE("a plot maps values linearly and logarithmically") {
     drawn const picture([](canvas& page) {
         plot linear(page, frame, {0, 10}, {-1, 1});
         CHECK(linear.at(0, -1)[0] == 50);
@@ -65,14 +65,14 @@ TEST_CASE("lines, bands, rules and markers are where their values are, and nothi
     CHECK(picture.has(at(5, 1), red));
 }
 
-TEST_CASE("ticks are round numbers, or one's own") {
+TEST_CASE("ticks are round numbers, or custom ones") {
     using labels = std::vector<std::string>;
     CHECK(labels_of({0, 1}) == labels{"0.0", "0.2", "0.4", "0.6", "0.8", "1.0"});
     CHECK(labels_of({5, 100, "", axis_scale::logarithmic}) == labels{"5", "10", "20", "50", "100"});
     CHECK(labels_of({1e-25, 1e-21, "", axis_scale::logarithmic}) ==
           labels{"1e-25", "1e-24", "1e-23", "1e-22", "1e-21"});
     CHECK(labels_of({1, 1e8, "", axis_scale::logarithmic}) == labels{"1", "100", "10000", "1e+06", "1e+08"});
-    // Too narrow for 1, 2 and 5: evenly spaced.
+    // Too narrow for 1, 2 and 5 times powers of ten: equidistant.
     CHECK(labels_of({45, 60, "", axis_scale::logarithmic}) == labels{"45", "50", "55", "60"});
     CHECK(labels_of({0, 2, "", axis_scale::linear, 6, {{0.5, "a"}, {1.5, "b"}}}) == labels{"a", "b"});
 }

@@ -8,7 +8,7 @@
 
 #include <lacuna/particles/packing.hpp>
 
-/// What tests find out about packings by looking at every pair.
+/// Properties of packings, found by brute force over all pairs.
 namespace packing_check {
 
 template <class Real>
@@ -38,7 +38,7 @@ double coordination(lacuna::packing<Real, 2> const& p, double tolerance) {
     return touching / double(p.size());
 }
 
-/// How far (over its radius) any disc reaches beyond the rectangle; negative when all keep away from its sides.
+/// Largest distance, over its radius, by which a disc extends beyond the rectangle; negative if all are inside.
 template <class Real>
 double largest_escape(lacuna::packing<Real, 2> const& p, double width, double height) {
     double worst = -std::numeric_limits<double>::infinity();

@@ -12,7 +12,7 @@
 #include "catch.hpp"
 
 /// \file
-/// Files as other programs and people write them (tests/packings/files): each is read to the right numbers, or refused with
+/// Files as other programs and people write them (tests/packings/files). Each is read correctly, or refused with
 /// line, value and rule.
 
 using lacuna::parse_lammps_data;
@@ -72,7 +72,7 @@ std::string ring(std::string const& images) {
 
 } // namespace
 
-TEST_CASE("LAMMPS data files of other hands", "[files]") {
+TEST_CASE("LAMMPS data files by other authors", "[files]") {
     for (auto const& [name, refusal] : {
              std::pair<std::string, std::string>{"tabs.data", ""},
              {"crlf.data", ""},
@@ -124,7 +124,7 @@ TEST_CASE("LAMMPS data files of other hands", "[files]") {
 TEST_CASE("CSV files of other programs", "[files]") {
     std::string const many = ": radius, material, position.x, position.y, velocity.x, velocity.y, spin, density; "
                              "leave out all others, particles are numbered by rows";
-    // Those that are read have one or two discs of radius 0.5 at x = 0 and 1.
+    // Accepted files have one or two discs of radius 0.5 at x = 0 and 1.
     for (auto const& [name, rows, refusal] : {
              std::tuple<std::string, std::size_t, std::string>{"bom.csv", 2, ""},
              {"semi.csv", 2, ""},
@@ -174,7 +174,7 @@ TEST_CASE("LAMMPS's units are converted to SI to the nearest numbers", "[files]"
         std::string name;
         double length, density, speed, spin;
     };
-    // Of LAMMPS's page of its command units: cm, g, s; micrometre, picogram, microsecond; nanometre, attogram, nanosecond.
+    // From LAMMPS's page on its command units: cm, g, s; micrometre, picogram, microsecond; nanometre, attogram, nanosecond.
     for (unit const& u : {unit{"si", 3.5, 0.0011, 2.5, 0.75}, unit{"cgs", 3.5e-2, 1.1, 2.5e-2, 0.75},
                           unit{"micro", 3.5e-6, 1.1, 2.5, 0.75e6}, unit{"nano", 3.5e-9, 1100, 2.5, 0.75e9}})
         for (std::string const title : {"LAMMPS data file via write_data, version 29 Aug 2024, timestep = 100, units = ", "# Units: ", "grains (units "}) {
@@ -194,7 +194,7 @@ TEST_CASE("LAMMPS's units are converted to SI to the nearest numbers", "[files]"
     REQUIRE(with("t, units = si\n# units = cgs") == "f:2: units = cgs: must be those named above, si");
 }
 
-TEST_CASE("a LAMMPS box that is periodic: image flags, bonds through its sides, its period", "[files]") {
+TEST_CASE("a periodic LAMMPS box: image flags, bonds through its sides, its period", "[files]") {
     std::string const through = "f:19: Bonds = 3 1: must be a pair that is nearest within the box: through its sides they are 1 m apart, "
                                 "within it 2 m; such a box is periodic, but is read as non-periodic";
     REQUIRE(why([&] { parse_lammps_data<3>(ring(""), "f"); }) == through);
@@ -213,7 +213,7 @@ TEST_CASE("a LAMMPS box that is periodic: image flags, bonds through its sides, 
             "f:13: image flag = 1: must be 0: the box is read as non-periodic along y; reading it as periodic unwraps positions");
     REQUIRE(why([] { parse_lammps_data<2>(ring(" 0 0 1"), "f", {true, true}); }) == "f:13: image flag = 1: must be 0 in the plane");
 
-    // A box that is just large enough for the centres of two that touch is no sign of a bond through its sides.
+    // In a box just large enough for the centres of two touching spheres, a bond does not cross its sides.
     std::string const tight = data_file("tight", "2 atoms\n1 bonds\n0 1 xlo xhi\n0 0.1 ylo yhi\n0 0.1 zlo zhi\n",
                                         "1 1 1 1 0 0 0\n2 1 1 1 1 0 0\n", "\nBonds\n\n1 1 1 2\n");
     REQUIRE(parse_lammps_data<3>(tight, "f").packing.bonds.size() == 1);
@@ -223,7 +223,7 @@ TEST_CASE("a LAMMPS box that is periodic: image flags, bonds through its sides, 
             "f:12: position = 1.001: must be within the box, from 0 to 1 along x");
 }
 
-TEST_CASE("types of bonds are kept, and give each bond the values of its type", "[files]") {
+TEST_CASE("types of bonds are read, and give each bond the values of its type", "[files]") {
     std::string const text = data_file("t", "3 atoms\n2 bonds\n1 atom types\n4 bond types\n", "1 1 1 1 0 0 0\n2 1 1 1 1 0 0\n3 1 1 1 2 0 0\n",
                                        "\nBond Type Labels\n\n4 glue\n\nBonds\n\n1 glue 3 2\n2 2 1 2\n");
     auto const list = parse_lammps_data<2>(text, "f");
@@ -233,7 +233,7 @@ TEST_CASE("types of bonds are kept, and give each bond the values of its type", 
     REQUIRE(why([&] { parse_lammps_data<2>(replaced(text, "2 2 1 2", "1 2 1 2"), "f"); }) == "f:21: id = 1: must be given once");
 }
 
-TEST_CASE("lines of a LAMMPS header that are wrong, or that no sphere can honour", "[files]") {
+TEST_CASE("lines of a LAMMPS header that are wrong, or have no meaning for spheres", "[files]") {
     auto const with = [](std::string const& line) {
         return why([&] { parse_lammps_data<3>(data_file("t", "1 atoms\n" + line + "\n", "1 1 1 1 0 0 0\n"), "f"); });
     };
@@ -284,7 +284,7 @@ TEST_CASE("columns of other programs, by any of their usual names", "[files]") {
     REQUIRE(parse_particle_csv<2>("x,y,r\n0,0,1\n", "f", {"bone"}).packing.material[0] == 0);
 }
 
-TEST_CASE("what a CSV file may mean in two ways is refused", "[files]") {
+TEST_CASE("ambiguous CSV files are refused", "[files]") {
     for (auto const& [text, message] : {
              std::pair<std::string, std::string>{"radius [mm],x,y\n1,0,0\n", "f:1 = \"radius [mm]\": must be in m"},
              {"radius,x,y,vx (km/h)\n1,0,0,1\n", "f:1 = \"vx (km/h)\": must be in m/s"},
@@ -304,7 +304,7 @@ TEST_CASE("what a CSV file may mean in two ways is refused", "[files]") {
         REQUIRE(why([&, &text = text] { parse_particle_csv<2>(text, "f"); }) == message);
     REQUIRE(why([] { parse_particle_csv<2>("r,x,y\n1,0,0\n", "f", {"bone", "gut"}); }) ==
             "f:1: material = (missing): must be given: there are 2 materials");
-    REQUIRE(parse_particle_csv<2>("r;x;y\n1,000;0,5;0\n", "f").packing.radius[0] == 1); // the second cell tells
+    REQUIRE(parse_particle_csv<2>("r;x;y\n1,000;0,5;0\n", "f").packing.radius[0] == 1); // the second cell decides
 }
 
 TEST_CASE("densities are written to CSV and come back", "[files]") {

@@ -12,14 +12,14 @@
 
 using lacuna::vec;
 
-TEST_CASE("random numbers are the standard's generator, mapped by hand", "[particles]") {
+TEST_CASE("random numbers come from the standard's generator, with our own mapping", "[particles]") {
     // The standard fixes the 10000th output of mt19937_64 with its default seed 5489: 9981545732273789042.
     lacuna::random_source random(5489);
     for (int k = 0; k < 9999; ++k) random.uniform();
     REQUIRE_THAT(random.uniform(), WithinRel(9981545732273789042.0 / 18446744073709551616.0, 1e-15));
 }
 
-TEST_CASE("lattices have the bonds and places that one counts by hand", "[particles]") {
+TEST_CASE("lattices have the bonds and positions counted by hand", "[particles]") {
     auto const line = lacuna::chain<double, 3>(5, 2.0);
     REQUIRE(line.size() == 5);
     REQUIRE(line.bonds.size() == 4);
@@ -67,7 +67,7 @@ TEST_CASE("measured statistics agree with hand numbers and brute force", "[parti
     REQUIRE(lacuna::measure_packing(lacuna::packing<double, 2>{}, 1.0, 0.01).particles == 0);
 }
 
-TEST_CASE("a random packing keeps its promises", "[particles]") {
+TEST_CASE("a random packing has the requested properties", "[particles]") {
     lacuna::random_packing_parameters p;
     p.width = p.height = 120e-6;
     for (double fraction : {0.5, 0.80, 0.84, 0.86})
@@ -121,7 +121,7 @@ TEST_CASE("free sides keep centres inside, hard sides whole discs", "[particles]
     REQUIRE(packing_check::largest_overlap(discs) <= p.overlap_tolerance);
 }
 
-TEST_CASE("obstacles stay where they are and are counted", "[particles]") {
+TEST_CASE("obstacles stay in place and count for the area fraction", "[particles]") {
     lacuna::packing<double, 2> wall;
     lacuna::random_source random(4);
     lacuna::lay_fibre<double, 2>(wall, {0, 50e-6}, {1, 0}, 100e-6, 1.5e-6, 2e-6, random);
@@ -171,7 +171,7 @@ TEST_CASE("fibres are straight and touch to rounding in every direction", "[part
     lacuna::random_source random(11);
     for (double angle : {0.0, 0.3, 1.5707963267948966, 2.5, 4.0}) {
         lacuna::packing<double, 2> p;
-        p.add({5e-3, 5e-3}, 1e-6); // numbers and bonds must count on from what is there
+        p.add({5e-3, 5e-3}, 1e-6); // numbers of particles and bonds must continue from here
         vec<double, 2> const u{std::cos(angle), std::sin(angle)}, edge{40e-6, 30e-6};
         auto const f = lacuna::lay_fibre<double, 2>(p, edge, 3.0 * u, 100e-6, 1.5e-6, 2e-6, random, 2);
         double total = 0;
@@ -209,7 +209,7 @@ TEST_CASE("a fibre within a rectangle ends at its side", "[particles]") {
     REQUIRE(none.particles.empty());
 }
 
-TEST_CASE("rows fit a length exactly wherever a number of discs can", "[particles]") {
+TEST_CASE("rows fit a length exactly if any number of discs can", "[particles]") {
     lacuna::random_source random(5);
     for (double length : {3e-6, 3.7e-6, 7e-6, 10.5e-6, 120e-6, 296e-6}) {
         auto const row = lacuna::fit_radii(length, 1.5e-6, 2e-6, random);

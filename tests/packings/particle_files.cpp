@@ -21,7 +21,7 @@ std::string why(Read const& read) {
     return "accepted";
 }
 
-/// Two bonded spheres and a third, as LAMMPS's write_data has them, lines not in the order of their ids.
+/// Two bonded spheres and a third, as written by LAMMPS's write_data; lines are not in the order of ids.
 std::string const spheres = "LAMMPS data file via write_data, version 23 Jun 2022, timestep = 0\n"
                             "\n"
                             "3 atoms\n"

@@ -97,7 +97,7 @@ TEST_CASE("aperture that compression closes exponentially") {
     force.v[1] = 3e-5;
     auto const both = exponential_aperture::aperture(p, force, row(1e-8));
     for (int k = 0; k < 2; ++k) REQUIRE(both[k] == a(force[k], 1e-8));
-    // Without anything to close it is constant.
+    // If nothing can close, it is constant.
     REQUIRE_THAT(exponential_aperture::aperture({2e-7, 2e-7, 1e-4, 0}, -3.0, 0.0), WithinRel(2e-7, 1e-15));
 }
 
@@ -105,13 +105,13 @@ TEMPLATE_TEST_CASE("apertures never shrink as a pair is pulled apart", "", const
                    cubic_crack_aperture, exponential_aperture) {
     typename TestType::parameters const p;
     REQUIRE_NOTHROW(p.validate("aperture"));
-    // A bond of 1e5 N/m: force and gap along one line through zero.
+    // A bond of 1e5 N/m: the force is proportional to the gap.
     double last = TestType::aperture(p, -1.0, -1e-5);
     REQUIRE(last > 0);
     for (int k = -9999; k <= 10000; ++k) {
         double const gap = 1e-9 * k, now = TestType::aperture(p, 1e5 * gap, gap);
         REQUIRE(now >= last);
-        // No jump: between two states a gap of 1e-9 m apart, more than that is not lost or won.
+        // No jump: gaps of successive states differ by 1e-9 m, and apertures by hardly more.
         REQUIRE(now - last <= 1.0001e-9 + 1e-8 * 0.5 * (k < 1 ? 1 : 0));
         last = now;
     }

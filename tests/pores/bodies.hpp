@@ -14,7 +14,7 @@
 #include <lacuna/pores/mesh/triangulation.hpp>
 
 /// \file
-/// Bodies of discs whose pores the tests of flow solvers fill.
+/// Packings whose pores the tests of flow solvers use.
 
 namespace bodies {
 
@@ -23,11 +23,11 @@ using space_point = lacuna::vec<double, 3>;
 
 inline double uniform(std::mt19937_64& engine) { return double(engine() >> 11) * 0x1p-53; }
 
-/// Discs of thickness 1, or spheres, and what makes a flow solver of their pores.
+/// Discs of thickness 1, or spheres, and functions that make flow solvers of their pores.
 template <int Dim>
 struct assembly {
-    using place_type = lacuna::vec<double, Dim>;
-    std::vector<place_type> x;
+    using position_type = lacuna::vec<double, Dim>;
+    std::vector<position_type> x;
     std::vector<double> r;
 
     lacuna::points_view<double, Dim> points() const { return lacuna::view_points(x); }
@@ -35,7 +35,7 @@ struct assembly {
     lacuna::pore_network<double, Dim> network(Boundary const& boundary = {}) const {
         return lacuna::make_pore_network(lacuna::triangulate_body(points(), r.data()), points(), r.data(), boundary);
     }
-    /// K_f = 1000, k = 1, nothing skipped, apertures of 0.1 at zero force.
+    /// K_f = 1000 Pa, k = 1, no throat skipped, apertures of 0.1 m at zero force.
     template <class Solver>
     static typename Solver::parameters settings() {
         typename Solver::parameters p;
@@ -49,9 +49,9 @@ struct assembly {
     Solver flow(typename Solver::parameters const& p, Boundary const& boundary = {}) const {
         return {p, network(boundary), 1.0, points(), r.data()};
     }
-    /// The records of a particle store: {x, y, arc, radius}, in space {x, y, z, radius}.
+    /// Records as in a particle store: {x, y, arc, radius}, in space {x, y, z, radius}; then two padding particles.
     template <class Real = double>
-    lacuna::body_column<Real> place() const {
+    lacuna::body_column<Real> records() const {
         lacuna::body_column<Real> column;
         column.resize(x.size() + 2);
         for (std::size_t i = 0; i < x.size() + 2; ++i) {
@@ -64,14 +64,14 @@ struct assembly {
     }
     /// Forces of the present pressures, one per particle.
     template <class Solver>
-    std::vector<place_type> tractions(Solver flow, int threads = 1) const {
-        constexpr std::size_t records = Dim == 2 ? 1 : 2;
+    std::vector<position_type> tractions(Solver flow, int threads = 1) const {
+        constexpr std::size_t per_particle = Dim == 2 ? 1 : 2;
         lacuna::record_column<double> extra;
-        extra.resize(records * x.size());
-        flow.template step<false>(place(), no_force, 0, threads, &extra);
-        std::vector<place_type> force(x.size());
+        extra.resize(per_particle * x.size());
+        flow.template step<false>(records(), no_force, 0, threads, &extra);
+        std::vector<position_type> force(x.size());
         for (std::size_t i = 0; i < x.size(); ++i)
-            for (int axis = 0; axis < Dim; ++axis) force[i][axis] = extra.at(records * i, axis);
+            for (int axis = 0; axis < Dim; ++axis) force[i][axis] = extra.at(per_particle * i, axis);
         return force;
     }
     static constexpr double no_force[4] = {0, 0, 0, 0};
@@ -79,7 +79,7 @@ struct assembly {
 using body = assembly<2>;
 using space_body = assembly<3>;
 
-/// Spheres of different radii on a disturbed cubic lattice of spacing 2, some apart, some overlapping.
+/// Spheres of different radii on a disturbed cubic lattice of spacing 2; some overlap, some have gaps.
 inline space_body scattered_spheres(std::uint64_t seed, int n, double least, double most) {
     std::mt19937_64 engine(seed);
     space_body b;
@@ -93,7 +93,7 @@ inline space_body scattered_spheres(std::uint64_t seed, int n, double least, dou
             }
     return b;
 }
-/// Spheres of radius 1 that touch, in a cubic lattice.
+/// Touching spheres of radius 1 on a cubic lattice.
 inline space_body cubic(int n) {
     auto b = scattered_spheres(1, n, 1, 1);
     for (auto& x : b.x)
@@ -101,7 +101,7 @@ inline space_body cubic(int n) {
     return b;
 }
 
-/// Discs of different radii on a disturbed lattice, some apart, some overlapping.
+/// Discs of different radii on a disturbed lattice; some overlap, some have gaps.
 inline body scattered(std::uint64_t seed, int rows, int columns, double least, double most) {
     std::mt19937_64 engine(seed);
     body b;
@@ -114,7 +114,7 @@ inline body scattered(std::uint64_t seed, int rows, int columns, double least, d
     return b;
 }
 
-/// Discs of radius 1 that touch, in a triangular lattice; every second row has one less.
+/// Touching discs of radius 1 on a triangular lattice; every second row has one less.
 inline body triangular(int rows, int columns) {
     body b;
     for (int i = 0; i < rows; ++i)
@@ -125,7 +125,7 @@ inline body triangular(int rows, int columns) {
     return b;
 }
 
-/// A motion that turns pores about, to be added to a body at rest.
+/// Displaces the discs of b from their positions in rest, such that pores deform and rotate.
 inline void stir(body& b, body const& rest, double phase, double amplitude = 0.01) {
     for (std::size_t i = 0; i < b.x.size(); ++i)
         b.x[i] = rest.x[i] +

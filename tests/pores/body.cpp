@@ -24,7 +24,7 @@ constexpr double pi = 3.14159265358979323846;
 
 double uniform(std::mt19937_64& engine) { return double(engine() >> 11) * 0x1p-53; }
 
-/// A body of discs with its pores; K_f = 1000, k = 1, thickness 1 unless changed.
+/// A packing of discs with its pores; K_f = 1000 Pa, k = 1 and thickness 1 m unless changed.
 struct body {
     std::vector<point> x;
     std::vector<double> r;
@@ -42,8 +42,8 @@ struct body {
     solver flow(Boundary const& boundary = {}) const {
         return {p, make_pore_network(mesh(), points(), r.data(), boundary), 1.0, points(), r.data()};
     }
-    /// The records of a particle store: {x, y, arc, radius}, and those of two padding particles.
-    body_column<double> place() const {
+    /// Records as in a particle store: {x, y, arc, radius}, and those of two padding particles.
+    body_column<double> records() const {
         body_column<double> column;
         column.resize(x.size() + 2);
         for (std::size_t i = 0; i < x.size() + 2; ++i) {
@@ -56,8 +56,8 @@ struct body {
         return column;
     }
     /// One step without forces between particles.
-    void step(solver& flow, double dt) const { flow.step<true>(place(), no_force, dt); }
-    /// Forces of a solver's pressures, three numbers a particle; the third stays 0.
+    void step(solver& flow, double dt) const { flow.step<true>(records(), no_force, dt); }
+    /// Forces of a solver's pressures, three numbers per particle; the third stays 0.
     std::vector<double> tractions(solver flow) const {
         return written(std::move(flow));
     }
@@ -65,7 +65,7 @@ struct body {
     std::vector<double> written(solver flow, int threads = 1) const {
         record_column<double> extra;
         extra.assign(x.size(), record<double>(9.0));
-        flow.step<false>(place(), no_force, 0, threads, &extra);
+        flow.step<false>(records(), no_force, 0, threads, &extra);
         std::vector<double> force;
         for (std::size_t i = 0; i < x.size(); ++i) {
             for (int lane = 0; lane < 3; ++lane) force.push_back(extra.at(i, lane));
@@ -107,7 +107,7 @@ body hexagon() {
     return b;
 }
 
-/// Discs of different radii on a disturbed lattice, some apart, some overlapping.
+/// Discs of different radii on a disturbed lattice; some overlap, some have gaps.
 body scattered(std::uint64_t seed, int rows = 9, int columns = 12, double least = 0.75, double most = 1.05) {
     std::mt19937_64 engine(seed);
     body b;
@@ -174,7 +174,7 @@ TEST_CASE("pores of a rhombus and of a ring add up to the merged ones") {
                  WithinRel(reference("9d.merged", "square_4_discs"), 1e-11));
 }
 
-TEST_CASE("any uniform pressure leaves a body's momentum and spin alone, and its inner discs") {
+TEST_CASE("a uniform pressure exerts no net force or moment on a packing, and no force on inner discs") {
     auto const b = scattered(29, 9, 12, 0.6, 0.9);
     auto flow = b.flow();
     auto const& net = flow.network();
@@ -225,7 +225,7 @@ TEST_CASE("tractions are those of eq. 16, pore by pore") {
 }
 
 TEST_CASE("a step follows its formulas throat by throat and pore by pore, for any number of pores") {
-    // From a few pores, fewer than a pack holds, to packs that are full or not.
+    // From fewer pores than a pack holds to many packs, the last of them full or not.
     int const columns = GENERATE(2, 3, 4, 5, 6, 7, 8, 9, 10, 30);
     auto b = scattered(53, columns < 30 ? 2 : 9, columns, 0.6, 1.05);
     auto flow = b.flow([](auto const& throat) -> throat_boundary<double> {
@@ -256,7 +256,7 @@ TEST_CASE("a step follows its formulas throat by throat and pore by pore, for an
     });
     for (auto& x : b.x) x += point{0.01 * (uniform(engine) - 0.5), 0.01 * (uniform(engine) - 0.5)};
     double const dt = 1e-4;
-    flow.step<true>(b.place(), forces.data(), dt);
+    flow.step<true>(b.records(), forces.data(), dt);
 
     auto const& net = flow.network();
     std::vector<double> inflow(net.pores(), 0.0), expected(3 * b.x.size(), 0.0);
@@ -294,11 +294,11 @@ TEST_CASE("a step follows its formulas throat by throat and pore by pore, for an
     for (std::size_t k = 0; k < force.size(); ++k)
         REQUIRE_THAT(force[k], WithinAbs(expected[k], 1e-11 * (1 + std::fabs(expected[k]))));
 
-    // What lies beyond the last pore and throat adds to nothing: as many steps again, with other neighbours in memory.
+    // Padding beyond the last pore and throat contributes nothing, in 20 more steps.
     double content = 0;
     for (int s = 0; s < 20; ++s) {
         auto const old = flow.network();
-        flow.step<true>(b.place(), forces.data(), dt);
+        flow.step<true>(b.records(), forces.data(), dt);
         content = 0;
         for (std::size_t k = 0; k < net.pores(); ++k)
             content += net.volume[k] * (net.pressure[k] - old.pressure[k]) / 1000 + net.volume[k] - old.volume[k];
@@ -322,9 +322,9 @@ TEST_CASE("threads and the ledger change no bit of a step") {
         for (int s = 0; s < 5; ++s) {
             for (auto& x : moved.x) x += point{0.01 * (uniform(engine) - 0.5), 0.01 * (uniform(engine) - 0.5)};
             if (ledger)
-                flow.step<true>(moved.place(), body::no_force, 1e-4, threads);
+                flow.step<true>(moved.records(), body::no_force, 1e-4, threads);
             else
-                flow.step<false>(moved.place(), body::no_force, 1e-4, threads);
+                flow.step<false>(moved.records(), body::no_force, 1e-4, threads);
         }
         return flow;
     };
@@ -346,7 +346,7 @@ TEST_CASE("threads and the ledger change no bit of a step") {
     REQUIRE(bare.ledger().dissipation == 0);
 }
 
-TEST_CASE("the pressures' work on moving discs is that of the pores' change of volume") {
+TEST_CASE("the work of pressures on moving discs equals their work on the change of volume") {
     auto b = scattered(47, 9, 12, 0.6, 0.9);
     auto flow = b.flow();
     std::mt19937_64 engine(4);
@@ -415,7 +415,7 @@ TEST_CASE("throats: length, conductance, order, sides") {
     }
 }
 
-TEST_CASE("a throat equally near to two sides of the body belongs to the one it faces") {
+TEST_CASE("a throat equally near to two sides of the bounding box belongs to the one it faces") {
     pore_mesh<2> mesh;
     mesh.simplices = {{0, 1, 2}, {3, 4, 5}};
     detail::connect(mesh);
@@ -430,17 +430,17 @@ TEST_CASE("a throat equally near to two sides of the body belongs to the one it 
     });
 }
 
-TEST_CASE("a body drains through the sides chosen, and through no other") {
+TEST_CASE("a packing drains through the chosen sides only") {
     auto b = scattered(37, 6, 8, 0.6, 0.9);
     auto sealed = b.flow();
     auto drained = b.flow([](auto const& throat) -> throat_boundary<double> {
         return {throat.side == body_side::top ? boundary_kind::drained : boundary_kind::sealed, 0.0};
     });
-    auto place = b.place();
-    for (std::size_t i = 0; i < b.x.size(); ++i) place.at(i, 3) = 2; // overlaps everywhere: closed gaps, no force
+    auto records = b.records();
+    for (std::size_t i = 0; i < b.x.size(); ++i) records.at(i, 3) = 2; // overlaps everywhere: closed gaps, no force
     auto const start = [&](solver& flow) {
         for (std::size_t k = 0; k < flow.network().pores(); ++k) flow.set_pressure(k, 1.0);
-        flow.refresh_apertures(place, body::no_force);
+        flow.refresh_apertures(records, body::no_force);
     };
     start(sealed);
     start(drained);
@@ -457,7 +457,7 @@ TEST_CASE("a body drains through the sides chosen, and through no other") {
     REQUIRE(sealed.ledger().boundary_inflow == 0);
 }
 
-TEST_CASE("mass and energy balance in every step while the body moves") {
+TEST_CASE("mass and energy balance in every step while the packing moves") {
     auto const tears = GENERATE(false, true);
     auto b = scattered(41);
     if (tears) b.p.minimum_pressure = -0.5;
@@ -484,7 +484,7 @@ TEST_CASE("mass and energy balance in every step while the body moves") {
             forces.push_back(std::min(10 * gap_of(i, j), 0.0));
             return int(forces.size()) - 1;
         });
-        flow.step<true>(b.place(), forces.data(), dt);
+        flow.step<true>(b.records(), forces.data(), dt);
         auto const& net = flow.network();
         double content = 0, gross = 0, inflow = 0;
         for (std::size_t k = 0; k < net.pores(); ++k) {
@@ -517,7 +517,7 @@ TEST_CASE("mass and energy balance in every step while the body moves") {
     REQUIRE((vapour_seen > 0) == tears);
 }
 
-TEST_CASE("a sealed body squeezed as a whole carries p = -K_f dV / V") {
+TEST_CASE("a sealed packing that is scaled as a whole has p = -K_f dV / V") {
     auto b = hexagon();
     auto flow = b.flow();
     double const v0 = flow.network().volume[0];
@@ -554,8 +554,8 @@ TEST_CASE("vapour closes before the pressure rises again") {
     REQUIRE(flow.network().vapour_of(0) > 0);
     stretch(1.0);
     REQUIRE(flow.network().vapour_of(0) == 0);
-    // By hand: to the pressure -1 the liquid grew by V_1 / K_f, at the volume V_1 of the widest pore; the same volume
-    // of liquid is pressed in at V_0.
+    // By hand: at pressure -1 the liquid grew by V_1 / K_f, where V_1 is the volume of the widest pore. The same volume
+    // of liquid is compressed into V_0.
     REQUIRE_THAT(flow.network().pressure[0], WithinRel(widest / v0 - 1, 1e-9));
 }
 
@@ -570,7 +570,7 @@ TEST_CASE("a pore crushed flat keeps its least volume and a finite time step") {
     REQUIRE(flow.critical_time_step() > 0);
 }
 
-TEST_CASE("a pore at its least volume exerts no force, and the energy adds up") {
+TEST_CASE("a pore at its least volume exerts no force, and the energy balances") {
     auto b = hexagon();
     auto flow = b.flow();
     for (std::size_t k = 0; k < 6; ++k) flow.set_pressure(k, 2.0);
@@ -579,7 +579,7 @@ TEST_CASE("a pore at its least volume exerts no force, and the energy adds up") 
     b.step(flow, 1e-9);
     auto const flat = b.written(flow);
     for (double const f : flat) REQUIRE(f == 0);
-    // Crushed to a thousandth of the triangle: the pressure that this takes is there, but does no work any more.
+    // Compressed to a thousandth of the triangle: the pore has the pressure of that volume, but it does no more work.
     double const least = 1e-3 * std::sqrt(3.0), v0 = std::sqrt(3.0) - pi / 2;
     REQUIRE_THAT(flow.network().pressure[0], WithinRel(2 + 1000 * (v0 - least) / least, 1e-9));
     auto const totals = flow.ledger();
@@ -598,7 +598,7 @@ TEST_CASE("a pore at its least volume exerts no force, and the energy adds up") 
     REQUIRE_THAT(flow.storage_energy() - energy, WithinAbs(gained, 1e-12 * energy));
 }
 
-TEST_CASE("skipped throats are looked at again when they may have opened") {
+TEST_CASE("skipped throats are checked again when they may have opened") {
     auto b = scattered(61, 6, 6, 0.95, 1.0);
     b.p.skip_ratio = 10;
     auto flow = b.flow();
@@ -614,7 +614,7 @@ TEST_CASE("skipped throats are looked at again when they may have opened") {
     b.step(flow, 1e-6);
     for (double const q : flow.network().flow) REQUIRE(q == 0);
     double const aperture = flow.network().aperture[2];
-    flow.refresh_apertures(b.place(), body::no_force);
+    flow.refresh_apertures(b.records(), body::no_force);
     REQUIRE(flow.network().aperture[2] != aperture);
     std::vector<double> limits;
     for (std::size_t t = 0; t < open; ++t) limits.push_back(limit(t));
@@ -630,7 +630,7 @@ TEST_CASE("skipped throats are looked at again when they may have opened") {
     }
 }
 
-TEST_CASE("an earlier state can be restored, and goes on with the same bits") {
+TEST_CASE("an earlier state can be restored, and continues with the same bits") {
     auto b = scattered(43, 5, 5);
     auto flow = b.flow();
     std::mt19937_64 engine(3);
@@ -647,7 +647,7 @@ TEST_CASE("an earlier state can be restored, and goes on with the same bits") {
     REQUIRE(later.ledger().dissipation == flow.ledger().dissipation);
 }
 
-TEST_CASE("an empty body has no pores and no limits") {
+TEST_CASE("an empty packing has no pores and no limits") {
     body b;
     auto flow = b.flow();
     b.step(flow, 1);
@@ -684,23 +684,23 @@ TEST_CASE("single precision follows double") {
     flow.set_pressure(0, 1);
     single.set_pressure(0, 1);
     double const dt = 0.5 * flow.critical_time_step();
-    body_column<float> place;
+    body_column<float> records;
     record_column<float> extra;
-    place.resize(9);
+    records.resize(9);
     for (std::size_t i = 0; i < 9; ++i) {
-        place.at(i, 0) = i < 7 ? x[i][0] : float(i);
-        place.at(i, 1) = i < 7 ? x[i][1] : 0.0f;
-        place.at(i, 3) = 1;
+        records.at(i, 0) = i < 7 ? x[i][0] : float(i);
+        records.at(i, 1) = i < 7 ? x[i][1] : 0.0f;
+        records.at(i, 3) = 1;
     }
     float const none[4] = {0, 0, 0, 0};
     for (int i = 0; i < 20; ++i) {
         b.step(flow, dt);
-        single.step<true>(place, none, float(dt));
+        single.step<true>(records, none, float(dt));
     }
     for (std::size_t k = 0; k < 6; ++k)
         REQUIRE_THAT(double(single.network().pressure[k]), WithinAbs(flow.network().pressure[k], 1e-4));
     extra.resize(7);
-    single.step<false>(place, none, 0, 1, &extra);
+    single.step<false>(records, none, 0, 1, &extra);
     auto const force = b.written(flow);
     for (std::size_t i = 0; i < 7; ++i)
         for (int axis = 0; axis < 2; ++axis)

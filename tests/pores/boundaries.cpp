@@ -34,7 +34,7 @@ flow_source pressure_source(std::string name, double value) {
     return {std::move(name), flow_source_kind::pressure, value};
 }
 
-/// What has come through the sources, added up.
+/// Sum of the volumes of all sources.
 template <class Solver>
 double total_volume(Solver const& flow) {
     double sum = 0;
@@ -44,7 +44,7 @@ double total_volume(Solver const& flow) {
 
 } // namespace
 
-TEMPLATE_TEST_CASE("two pores: a source, a held pressure, and what passes through each", "", explicit_bare,
+TEMPLATE_TEST_CASE("two pores: a source, a held pressure, and the volume through each", "", explicit_bare,
                    implicit_bare) {
     // Pore 0 is fed by q = 0.3 and joined to pore 1, held at p = 2, by C = 0.5: p_0 -> 2 + q / C = 2.6, and the excess
     // decays as exp(-t C / V) with V = 4.
@@ -58,17 +58,17 @@ TEMPLATE_TEST_CASE("two pores: a source, a held pressure, and what passes throug
     REQUIRE_THAT(flow.network().pressure[0], WithinRel(2.6 * (1 - std::exp(-0.625)), 2e-4));
     REQUIRE_THAT(flow.network().sources[0].volume, WithinRel(1.5, 1e-12));
     REQUIRE_THAT(flow.network().sources[0].rate, WithinRel(0.3, 1e-9));
-    // What the tank gave: what is in the pores beyond what was pumped.
+    // The tank supplied the content of the pores less the pumped volume.
     double const stored = 4 * flow.network().pressure[0] + 2;
     REQUIRE_THAT(flow.network().sources[1].volume, WithinRel(stored - 1.5, 1e-11));
     REQUIRE_THAT(flow.ledger().boundary_inflow, WithinRel(stored, 1e-11));
-    // The energy that the sources gave is stored or lost on the way.
+    // The work of the sources is stored or dissipated.
     REQUIRE_THAT(flow.ledger().reservoir_work, WithinRel(flow.storage_energy() + flow.ledger().dissipation, 1e-11));
     for (int i = 0; i < 200000; ++i) flow.advance(10 * dt);
     REQUIRE_THAT(flow.network().pressure[0], WithinRel(2.6, 1e-10));
     REQUIRE_THAT(flow.network().sources[1].rate, WithinRel(-0.3, 1e-7));
 
-    // In time: the pump is turned round, the tank emptied.
+    // Later the pump is reversed, and the tank emptied.
     flow.set_source(0, -0.1);
     flow.set_source(1, 0.0);
     for (int i = 0; i < 200000; ++i) flow.advance(10 * dt);
@@ -119,19 +119,19 @@ TEST_CASE("Darcy flow through a triangular lattice of discs, from side to side a
     auto const flux = [](solver const& flow) {
         auto const& sources = flow.network().sources;
         REQUIRE_THAT(sources[0].rate, WithinRel(-sources[1].rate, 1e-10));
-        // The work of the reservoirs is lost in the throats.
+        // The work of the reservoirs is dissipated in the throats.
         auto const& net = flow.network();
         double lost = 0;
         for (std::size_t t = 0; t < net.open_throats(); ++t) lost += net.flow[t] * net.flow[t] / net.conductance[t];
         REQUIRE_THAT(lost, WithinRel(7.0 * sources[0].rate, 1e-9));
         return sources[0].rate;
     };
-    // The column added in the middle, out of the ends' reach: 5 rows of throats along rows, one after the other, and 4
-    // pairs of slanting ones between them, 5 / C + 4 / (2 C) = 7 / C. (In the limit of many rows 3 / (2 C) for each
+    // One column more, in the middle where the ends have no influence. It is 5 throats along rows in series with 4
+    // pairs of slanting ones between them: 5 / C + 4 / (2 C) = 7 / C. (In the limit of many rows 3 / (2 C) for each
     // sqrt(3) R of height and 2 R of width: the conductivity C / sqrt(3) of the honeycomb.)
     REQUIRE_THAT(flux(wide) - flux(narrow), WithinRel(c, 1e-9));
 
-    // The same flux fed in at the bottom instead of a reservoir there.
+    // The same flux is injected at the bottom instead of a reservoir there.
     double const q = flux(wide);
     auto const fed = steady(31, flow_boundaries(injection("bottom", on_side{body_side::bottom}, q),
                                                 reservoir("top", on_side{body_side::top}, 0.0)));
@@ -139,7 +139,7 @@ TEST_CASE("Darcy flow through a triangular lattice of discs, from side to side a
     REQUIRE_THAT(fed.network().sources[1].rate, WithinRel(-q, 1e-9));
 }
 
-TEST_CASE("a loaded surface is chosen by its particles, rules are asked in order") {
+TEST_CASE("a loaded surface is chosen by its particles, and rules are tried in order") {
     auto const b = bodies::triangular(4, 6);
     std::vector<std::uint8_t> loaded(b.x.size(), 0);
     for (std::size_t i = 0; i < b.x.size(); ++i)
@@ -171,10 +171,10 @@ TEST_CASE("a loaded surface is chosen by its particles, rules are asked in order
     }
 }
 
-TEST_CASE("sources at points, and pressures to begin with") {
+TEST_CASE("sources at points, and initial pressures") {
     auto const b = bodies::triangular(5, 6);
     auto net = b.network();
-    // The triangle of discs 0, 1 and the one above them; and the corner far outside.
+    // A point in the triangle of discs 0, 1 and the one above them, and a point far outside.
     auto const inside = find_pore(net, b.points(), point{1, 0.5});
     REQUIRE_THAT(norm(pore_middle(net, inside, b.points()) - point{1, 1 / std::sqrt(3.0)}), WithinAbs(0, 1e-12));
     auto const outside = find_pore(net, b.points(), point{-50, -50});
@@ -198,7 +198,7 @@ TEST_CASE("sources at points, and pressures to begin with") {
                         contains_text("initial pressure of pore 0 = -2: must be >= minimum_pressure"));
 }
 
-TEMPLATE_TEST_CASE("sources keep mass and energy while the body moves", "", explicit_flow, implicit_flow) {
+TEMPLATE_TEST_CASE("mass and energy balance with sources while the packing moves", "", explicit_flow, implicit_flow) {
     using solver = typename TestType::template solver<double, 2>;
     bool const tears = std::is_same_v<TestType, explicit_flow> && GENERATE(false, true);
     int const substeps = GENERATE(1, 3);
@@ -215,7 +215,7 @@ TEMPLATE_TEST_CASE("sources keep mass and energy while the body moves", "", expl
     REQUIRE(std::count(net.sources[1].pores.begin(), net.sources[1].pores.end(), 20) == 0);
     solver flow(p, net, 1.0, rest.points(), rest.r.data());
     auto b = rest;
-    flow.refresh_apertures(b.place(), body::no_force);
+    flow.refresh_apertures(b.records(), body::no_force);
     double const dt = 0.4 * flow_critical_time_step(flow.network(), p.bulk_modulus) * substeps;
     for (int step = 1; step < 200; ++step) {
         bodies::stir(b, rest, 0.01 * step);
@@ -223,7 +223,7 @@ TEMPLATE_TEST_CASE("sources keep mass and energy while the body moves", "", expl
         auto const before = flow.network();
         auto const totals = flow.ledger();
         double const energy = flow.storage_energy();
-        flow.template step<true>(b.place(), body::no_force, dt);
+        flow.template step<true>(b.records(), body::no_force, dt);
         auto const& now = flow.network();
         double content = 0, came = 0;
         for (std::size_t k = 0; k < now.pores(); ++k)
@@ -243,7 +243,7 @@ TEMPLATE_TEST_CASE("sources keep mass and energy while the body moves", "", expl
                               (l.prefactor_work - totals.prefactor_work);
         REQUIRE_THAT(flow.storage_energy() - energy, WithinAbs(gained, 1e-11 * (1 + energy)));
     }
-    // The forces are those of the pressures that the sources left.
+    // The forces are those of the pressures after the exchange with the sources.
     std::vector<point> expected(rest.x.size());
     for (std::size_t k = 0; k < flow.network().pores(); ++k) {
         auto const push = flow.pore_tractions(k, b.points(), b.r.data());

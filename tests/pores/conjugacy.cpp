@@ -26,7 +26,7 @@ std::set<std::size_t> rim_of(pore_network<double, 2> const& net) {
 
 } // namespace
 
-TEMPLATE_TEST_CASE("a uniform pressure in a sealed body stays, and leaves inner discs alone", "", explicit_flow,
+TEMPLATE_TEST_CASE("a uniform pressure between sealed discs stays, and exerts no force on inner ones", "", explicit_flow,
                    implicit_flow) {
     using solver = typename TestType::template solver<double, 2>;
     // Discs of equal and unequal radii, some touching, some apart or overlapping.
@@ -37,7 +37,7 @@ TEMPLATE_TEST_CASE("a uniform pressure in a sealed body stays, and leaves inner 
     p.initial_pressure = 3;
     auto flow = b.flow<solver>(p);
     double const dt = 0.2 * flow_critical_time_step(flow.network(), p.bulk_modulus);
-    for (int s = 0; s < 20; ++s) flow.template step<true>(b.place(), body::no_force, dt);
+    for (int s = 0; s < 20; ++s) flow.template step<true>(b.records(), body::no_force, dt);
     for (double const q : flow.network().pressure) REQUIRE_THAT(q, WithinRel(3.0, 1e-13));
     auto const force = b.tractions(flow);
     auto const rim = rim_of(flow.network());
@@ -67,7 +67,7 @@ TEMPLATE_TEST_CASE("along a finite path pressures do the work p dV on the discs"
     bool const touching = GENERATE(true, false);
     auto const rest = touching ? bodies::triangular(6, 7) : bodies::scattered(92, 6, 7, 0.6, 0.9);
     auto p = body::settings<solver>();
-    // A fluid so soft that the volumes do not change its pressures, through throats that let nothing pass.
+    // A fluid so soft that volumes do not change its pressures, and throats without conductance.
     p.bulk_modulus = 1e-12;
     p.conductivity = 0;
     auto const path = [&](int steps) {
@@ -77,19 +77,19 @@ TEMPLATE_TEST_CASE("along a finite path pressures do the work p dV on the discs"
         for (std::size_t k = 0; k < net.pores(); ++k) flow.set_pressure(k, 1 + 0.5 * std::sin(double(k)));
         auto const start = net.volume;
         auto b = rest, before = rest;
-        flow.template step<true>(b.place(), body::no_force, 1e-3);
+        flow.template step<true>(b.records(), body::no_force, 1e-3);
         auto force = b.tractions(flow);
         double work = 0;
         for (int s = 1; s <= steps; ++s) {
             before.x = b.x;
-            // Turned as a whole, sheared and stirred.
+            // Rotated as a whole, sheared and stirred.
             double const t = double(s) / steps, c = std::cos(0.3 * t), n = std::sin(0.3 * t);
             for (std::size_t i = 0; i < b.x.size(); ++i) {
                 point const x{rest.x[i][0] + 0.02 * t * rest.x[i][1], rest.x[i][1] * (1 + 0.01 * t)};
                 b.x[i] = point{c * x[0] - n * x[1], n * x[0] + c * x[1]} +
                          point{std::sin(3 * t + double(i)) - std::sin(double(i)), 0} * 0.02;
             }
-            flow.template step<true>(b.place(), body::no_force, 1e-3);
+            flow.template step<true>(b.records(), body::no_force, 1e-3);
             auto const next = b.tractions(flow);
             for (std::size_t i = 0; i < b.x.size(); ++i) work += dot(force[i] + next[i], b.x[i] - before.x[i]) / 2;
             force = next;
@@ -107,7 +107,7 @@ TEMPLATE_TEST_CASE("along a finite path pressures do the work p dV on the discs"
     double const coarse = path(20), fine = path(40);
     INFO("relative difference " << coarse << " and " << fine);
     if (touching) {
-        // Of equal radii: the sectors of a pore are half a disc, its volume is quadratic, and the trapezoids exact.
+        // For equal radii a pore's sectors sum to half a disc: its volume is quadratic, and the trapezoidal rule exact.
         REQUIRE(coarse < 1e-11);
         REQUIRE(fine < 1e-11);
     } else {

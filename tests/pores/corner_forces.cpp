@@ -24,11 +24,11 @@ namespace {
 using solver = explicit_flow::solver<double, 2>;
 using space_solver = explicit_flow::solver<double, 3>;
 
-/// Eq. 16 from the definition, pore by pore: what each particle is pushed with by the pressures of the network.
+/// Force of the network's pressures on each particle, pore by pore, from the definition (eq. 16).
 template <class Solver, class Body>
 auto expected(Solver const& flow, Body const& b) {
     auto const& net = flow.network();
-    std::vector<typename Body::place_type> sum(b.x.size());
+    std::vector<typename Body::position_type> sum(b.x.size());
     for (std::size_t k = 0; k < net.pores(); ++k) {
         if (net.volume[k] <= 1.000001e-3 * net.size[k]) continue;
         auto const push = flow.pore_tractions(k, b.points(), b.r.data());
@@ -37,7 +37,7 @@ auto expected(Solver const& flow, Body const& b) {
     return sum;
 }
 
-/// Steps of a body with many more pores than are passed over in one go.
+/// Steps of a packing with many more pores than one chunk holds.
 template <class Solver, class Body>
 void compare(Body b, double dt) {
     auto const drained = [](auto const& throat) {
@@ -54,9 +54,9 @@ void compare(Body b, double dt) {
     for (auto* column : {&of_one, &of_two, &of_kept}) column->resize(records * b.x.size());
     for (int s = 0; s < 3; ++s) {
         for (auto& x : b.x) x[0] += 0.01 * (bodies::uniform(engine) - 0.5);
-        one.template step<false>(b.place(), Body::no_force, dt, 1, &of_one);
-        two.template step<true>(b.place(), Body::no_force, dt, 1, &of_two);
-        kept.template step<false>(b.place(), Body::no_force, dt, 3, &of_kept);
+        one.template step<false>(b.records(), Body::no_force, dt, 1, &of_one);
+        two.template step<true>(b.records(), Body::no_force, dt, 1, &of_two);
+        kept.template step<false>(b.records(), Body::no_force, dt, 3, &of_kept);
     }
     REQUIRE(one.network().pressure == two.network().pressure);
     REQUIRE(one.network().pressure == kept.network().pressure);
@@ -89,16 +89,16 @@ Body shuffled(Body const& b) {
 
 } // namespace
 
-TEST_CASE("forces that are summed up as they come are those that are kept, and those of the pressures") {
+TEST_CASE("forces summed at once equal stored forces, and those of the pressures") {
     auto const b = bodies::scattered(3, 44, 40, 0.7, 0.95);
     compare<solver>(b, 1e-5);
-    // Numbered at random, nearly all forces are needed to the end.
+    // With particles numbered at random, nearly all forces are needed until the end.
     compare<solver>(shuffled(b), 1e-5);
     compare<space_solver>(bodies::scattered_spheres(7, 9, 0.8, 1.0), 1e-5);
 }
 
-TEST_CASE("a force is kept until the last of its particles has met all its pores") {
-    // A strip of triangles (k, k + 1, k + 2): particle k has met its last pore, number k, in run k / run.
+TEST_CASE("a force is stored until its particle's group is complete") {
+    // A strip of triangles (k, k + 1, k + 2): the last pore of particle k is number k, in block k / block.
     struct strip {
         std::size_t particles;
         std::array<std::vector<std::int32_t>, 3> corner;
@@ -107,31 +107,32 @@ TEST_CASE("a force is kept until the last of its particles has met all its pores
     for (std::int32_t p = 0; p < 998; ++p)
         for (std::int32_t c = 0; c < 3; ++c) net.corner[std::size_t(c)].push_back(p + c);
     using forces = corner_forces<double, 2>;
-    constexpr std::size_t run = 4 * std::size_t(forces::width);
-    for (bool const streaming : {true, false}) {
+    constexpr std::size_t block = 4 * std::size_t(forces::width);
+    for (bool const transient : {true, false}) {
         forces f;
-        f.build(net, run, streaming);
-        // A group of 32 particles is met at the end of the run that has its last particle's last pore.
-        std::set<double*> places;
+        f.build(net, block, transient);
+        // A group of 32 particles is complete after the block with the last pore of its last particle.
+        std::set<double*> addresses;
         record_column<double> sum;
         sum.assign(1000, record<double>(-1.0));
-        for (std::size_t r = 0; r * run < 998; ++r) {
-            for (std::size_t p = r * run; p < std::min<std::size_t>((r + 1) * run, 998); ++p)
+        for (std::size_t n = 0; n * block < 998; ++n) {
+            for (std::size_t p = n * block; p < std::min<std::size_t>((n + 1) * block, 998); ++p)
                 for (std::size_t c = 0; c < 3; ++c) {
                     double* at = f.of(p, c);
-                    places.insert(at);
+                    addresses.insert(at);
                     at[0] = double(p);
                     at[1] = double(c);
                 }
-            f.write_complete(r, sum);
+            f.write_complete(n, sum);
             for (std::size_t k = 0; k < 1000; ++k) {
                 std::size_t const group_end = std::min<std::size_t>(k / 32 * 32 + 32, 1000);
-                bool const met = std::min<std::size_t>(group_end - 1, 997) < std::min<std::size_t>((r + 1) * run, 998);
-                if (!met) {
+                std::size_t const block_end = std::min<std::size_t>((n + 1) * block, 998);
+                bool const complete = std::min<std::size_t>(group_end - 1, 997) < block_end;
+                if (!complete) {
                     REQUIRE(sum.at(k, 0) == -1);
                     continue;
                 }
-                // Pores k - 2 (its third corner), k - 1 (its second), k (its first), where there are such.
+                // Pores k - 2 (its third corner), k - 1 (its second), k (its first), if they exist.
                 double pores = 0, corners = 0;
                 for (std::size_t c = 0; c < 3; ++c)
                     if (k >= c && k - c < 998) {
@@ -142,14 +143,14 @@ TEST_CASE("a force is kept until the last of its particles has met all its pores
                 REQUIRE(sum.at(k, 1) == corners);
             }
         }
-        if (streaming)
-            REQUIRE(places.size() < 3 * 998 / 2);
+        if (transient)
+            REQUIRE(addresses.size() < 3 * 998 / 2);
         else
-            REQUIRE(places.size() == 3 * 998);
+            REQUIRE(addresses.size() == 3 * 998);
     }
 }
 
-TEST_CASE("throats of a pore: first those that it is at side 1 of, each in ascending order") {
+TEST_CASE("throats of a pore: first those for which it is on side 1, both parts in ascending order") {
     // Throats 0 to 5 between pores 2-0, 1-2, 0-1, 2-1, and from reservoirs to 0 and 2.
     std::array<std::vector<std::int32_t>, 2> const ends{{{2, 1, 0, 2, 0, 2}, {0, 2, 1, 1, -1, -1}}};
     pore_throats<double> table;
@@ -163,17 +164,17 @@ TEST_CASE("throats of a pore: first those that it is at side 1 of, each in ascen
         REQUIRE(seen == wanted[p]);
         if (p < std::size_t(table.width)) REQUIRE(table.outflows(0)[p] == (p == 1 ? 2.0f : 1.0f));
     }
-    // Rows are filled up with the throat after the last.
+    // Rows are padded with the number after the last throat.
     REQUIRE(table.throats(0, 3)[0] == 6);
 }
 
-TEST_CASE("throats in another order than that of their pores: the same step") {
+TEST_CASE("a step is the same if throats are not in the order of their pores") {
     auto const b = bodies::scattered(3, 44, 40, 0.7, 0.95);
     auto net = b.network();
-    auto const turn_round = [&](auto& column) { std::reverse(column.begin(), column.begin() + std::ptrdiff_t(net.interior_throats)); };
-    for (auto& column : net.throat_particle) turn_round(column);
-    for (auto& column : net.throat_pore) turn_round(column);
-    turn_round(net.length);
+    auto const reverse_interior = [&](auto& column) { std::reverse(column.begin(), column.begin() + std::ptrdiff_t(net.interior_throats)); };
+    for (auto& column : net.throat_particle) reverse_interior(column);
+    for (auto& column : net.throat_pore) reverse_interior(column);
+    reverse_interior(net.length);
     net.throats_of.build(net.throat_pore, net.pores());
     auto const p = bodies::body::settings<solver>();
     solver other(p, net, 1.0, b.points(), b.r.data()), usual = b.flow<solver>(p);
@@ -184,8 +185,8 @@ TEST_CASE("throats in another order than that of their pores: the same step") {
         usual.set_pressure(k, pressure);
     }
     for (int s = 0; s < 3; ++s) {
-        other.step<false>(b.place(), bodies::body::no_force, 1e-5);
-        usual.step<false>(b.place(), bodies::body::no_force, 1e-5);
+        other.step<false>(b.records(), bodies::body::no_force, 1e-5);
+        usual.step<false>(b.records(), bodies::body::no_force, 1e-5);
     }
     double moved = 0;
     for (std::size_t k = 0; k < net.pores(); ++k) {
@@ -195,7 +196,7 @@ TEST_CASE("throats in another order than that of their pores: the same step") {
     REQUIRE(moved > 0.1);
 }
 
-TEST_CASE("a fluid that can tear goes on from the network of one that never does") {
+TEST_CASE("a fluid that can tear continues from the network of one that cannot") {
     auto const b = bodies::triangular(4, 5);
     auto p = bodies::body::settings<solver>();
     auto const firm = b.flow<solver>(p);
@@ -208,8 +209,8 @@ TEST_CASE("a fluid that can tear goes on from the network of one that never does
     auto wide = b;
     for (auto& x : wide.x) x = x * 1.01;
     for (auto* flow : {&weak, &also}) {
-        flow->step<true>(wide.place(), bodies::body::no_force, 0);
-        // Volumes have grown by far more than 1 Pa of 1000 gives: what liquid does not fill is vapour.
+        flow->step<true>(wide.records(), bodies::body::no_force, 0);
+        // Volumes have grown by far more than 1 Pa over K_f = 1000 Pa allows: vapour fills the rest.
         auto const& net = flow->network();
         for (std::size_t k = 0; k < net.pores(); ++k) {
             REQUIRE(net.pressure[k] == -1);

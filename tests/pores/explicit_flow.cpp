@@ -39,7 +39,7 @@ throats ring_of(std::vector<double> const& apertures) {
     return list;
 }
 
-/// Largest error after time t, against the reference, with steps of dt.
+/// Largest error against the reference after time t, in steps of dt.
 double error_of(solver flow, double t, double dt, std::vector<double> const& expected) {
     int const steps = int(std::lround(t / dt));
     for (int i = 0; i < steps; ++i) flow.advance(dt);
@@ -63,8 +63,8 @@ double growth(solver flow, double dt, int steps) {
 TEST_CASE("a sealed pulse spreads along a line of pores") {
     auto flow = make_solver(std::vector<double>(10, 1.0), line_of(10));
     flow.set_pressure(0, 1);
-    // Forward Euler's error is dt lambda^2 t / 2 per mode. Relative to the far pores' tiny pressures at t = 1 it is
-    // larger than to the rest, so this time runs with finer steps.
+    // Forward Euler's error is dt lambda^2 t / 2 per mode. At t = 1 it is large relative to the tiny pressures of far
+    // pores, so that time is run in finer steps.
     REQUIRE(error_of(flow, 1, 1e-5, reference_list("5a.sealed_pulse_t=1")) < 1e-3);
     REQUIRE(error_of(flow, 5, 1e-4, reference_list("5a.sealed_pulse_t=5")) < 1e-3);
     REQUIRE(error_of(flow, 20, 1e-3, reference_list("5a.sealed_pulse_t=20")) < 1e-4);
@@ -91,7 +91,7 @@ TEST_CASE("twenty steps of forward Euler, all flows from the old pressures") {
     flow.set_pressure(0, 1);
     for (int i = 0; i < 20; ++i) flow.advance(0.25);
     auto const expected = reference_list("5a.sealed_pulse_FE_dt0.25_n20");
-    // Apart from the reference's twelve digits: the same scheme with exact binary fractions, by hand.
+    // Beyond the reference's twelve digits: the same scheme with exact binary fractions, by hand.
     std::vector<double> p(10, 0.0);
     p[0] = 1;
     for (int i = 0; i < 20; ++i) {
@@ -131,7 +131,7 @@ TEST_CASE("a reservoir fills the pores to its pressure and no further") {
     REQUIRE_THAT(flow.ledger().boundary_inflow, WithinRel(22.5, 1e-9));
     REQUIRE_THAT(flow.storage_energy(), WithinRel(4.5 * 25 / 2, 1e-9));
     REQUIRE_THAT(flow.ledger().reservoir_work, WithinRel(5 * 22.5, 1e-9));
-    // Half of the work that a constant pressure does is lost on the way.
+    // Half of the work of a constant pressure is dissipated.
     REQUIRE_THAT(flow.ledger().dissipation, WithinRel(4.5 * 25 / 2, 1e-8));
 }
 
@@ -190,9 +190,9 @@ TEST_CASE("conductivity of a honeycomb of pores is the same in both directions")
     };
     int const rows = 6, columns = 4;
 
-    // Along one of the edges' directions: rows of zigzags joined by upright edges, reservoirs at both ends of an
-    // upright edge each. Per column and unit of edge length the width is sqrt(3); `rows` zigzags of height 1/2 and
-    // rows + 1 upright edges of height 1 lie one above the other.
+    // Along one direction of edges: rows of zigzags joined by upright edges. Each column begins and ends with an
+    // upright edge to a reservoir. A column is sqrt(3) edge lengths wide; `rows` zigzags of height 1/2 and rows + 1
+    // upright edges of height 1 lie above each other.
     auto const low = [](int r, int c) { return 2 * (r * columns + (c + columns) % columns); };
     throats upright;
     for (int r = 0; r < rows; ++r)
@@ -208,7 +208,7 @@ TEST_CASE("conductivity of a honeycomb of pores is the same in both directions")
     double const height = rows + 1 + 0.5 * rows, width = std::sqrt(3.0) * columns;
     REQUIRE_THAT(along * height / width, WithinRel(expected, 1e-8));
 
-    // Across it: zigzag chains, sqrt(3)/2 an edge, 1.5 apart, joined by cross edges that carry nothing.
+    // Across it: zigzag chains, sqrt(3)/2 per edge, 1.5 apart, joined by cross edges without flow.
     int const chains = 4, links = 12;
     auto const at = [](int c, int k) { return (c + chains) % chains * links + k; };
     throats across;

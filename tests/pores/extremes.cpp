@@ -46,7 +46,7 @@ body<2, Real> make_hexagon() {
     for (int k = 0; k < 6; ++k) b.add({Real(std::cos(k * pi / 3)), Real(std::sin(k * pi / 3))});
     return b;
 }
-/// Spheres of a cubic lattice, out of their places by up to a tenth of a radius.
+/// Spheres of a cubic lattice, displaced by up to a tenth of a diameter along each axis.
 body<3> make_heap(int n) {
     std::mt19937_64 engine(3);
     body<3> b;
@@ -57,8 +57,8 @@ body<3> make_heap(int n) {
     return b;
 }
 vec<double, 3> direction(int k) {
-    double const z = -0.9 + 0.17 * k, turn = 2.4 * k;
-    return {std::sqrt(1 - z * z) * std::cos(turn), std::sqrt(1 - z * z) * std::sin(turn), z};
+    double const z = -0.9 + 0.17 * k, angle = 2.4 * k;
+    return {std::sqrt(1 - z * z) * std::cos(angle), std::sqrt(1 - z * z) * std::sin(angle), z};
 }
 
 using number = long double;
@@ -80,7 +80,7 @@ number determinant_of(std::array<std::array<number, N>, N> m) {
     return product;
 }
 
-/// All simplices whose orthogonal sphere no particle enters, by trying all: one dimension more, by Cramer's rule.
+/// All simplices with an empty orthogonal sphere, by brute force: determinants of the lifted points.
 template <int Dim>
 std::vector<std::array<std::int32_t, std::size_t(Dim) + 1>> try_all(body<Dim> const& b) {
     constexpr auto dim = std::size_t(Dim);
@@ -130,7 +130,7 @@ auto sorted_corners(pore_mesh<Dim> const& mesh) {
 
 } // namespace
 
-TEST_CASE("one disc far away takes no pore from the others, in any direction") {
+TEST_CASE("one disc far away changes no pore of the others, in any direction") {
     auto const near = make_hexagon();
     auto const expected = near.pores().simplices;
     REQUIRE(expected.size() == 6);
@@ -139,14 +139,14 @@ TEST_CASE("one disc far away takes no pore from the others, in any direction") {
             auto b = near;
             b.add({far * std::cos(0.1 + k * pi / 18), far * std::sin(0.1 + k * pi / 18)});
             REQUIRE(b.pores().simplices == expected);
-            // The triangulation of all of them has, besides, one triangle for each side of the hexagon that the far disc sees.
+            // The triangulation of all discs also has a triangle for each side of the hexagon that faces the far disc.
             auto const all = b.mesh().simplices;
             REQUIRE(std::includes(all.begin(), all.end(), expected.begin(), expected.end()));
             REQUIRE(all.size() == 9);
         }
 }
 
-TEST_CASE("one sphere far away takes no pore from the others") {
+TEST_CASE("one sphere far away changes no pore of the others") {
     auto const near = make_heap(3);
     auto const expected = near.pores().simplices;
     REQUIRE(expected.size() > 40);
@@ -156,7 +156,7 @@ TEST_CASE("one sphere far away takes no pore from the others") {
             b.add(direction(k) * far);
             REQUIRE(b.pores().simplices == expected);
         }
-    // All of them: a tetrahedron, and one for each of its sides that the far sphere sees.
+    // All five spheres: a tetrahedron, and one more for each of its sides that faces the far sphere.
     body<3> four;
     four.add({1, 1, 1});
     four.add({1, -1, -1});
@@ -172,7 +172,7 @@ TEST_CASE("one sphere far away takes no pore from the others") {
         }
 }
 
-TEST_CASE("several particles and bodies far from each other each have their pores") {
+TEST_CASE("several groups of particles far from each other have their own pores") {
     auto const hexagon = make_hexagon();
     for (double const far : {40.0, 1e4, 1e8, 1e11}) {
         body<2> b;
@@ -204,7 +204,7 @@ TEST_CASE("discs and spheres in single precision, one far away") {
     }
 }
 
-TEST_CASE("what lies in the middle of a ring, far from it, is a corner of its pores") {
+TEST_CASE("particles in the middle of a ring, far from it, are corners of its pores") {
     // A ring of 126 touching discs; in its middle one disc, or a hexagon.
     body<2> ring;
     double const radius = 0.5 / std::sin(pi / 126);
@@ -229,7 +229,7 @@ TEST_CASE("what lies in the middle of a ring, far from it, is a corner of its po
     REQUIRE(all.size() == 2 * 133 - 2 - 126);
 }
 
-TEST_CASE("radii from 1 to 1e-4, small ones upon large ones: the simplices that trying all finds") {
+TEST_CASE("radii from 1 to 1e-4, small ones upon large ones: the same simplices as by brute force") {
     std::mt19937_64 engine(7);
     for (double const ratio : {1e2, 1e3, 1e4})
         for (int trial = 0; trial < 4; ++trial) {
@@ -253,7 +253,7 @@ TEST_CASE("radii from 1 to 1e-4, small ones upon large ones: the simplices that 
         }
 }
 
-TEST_CASE("numbers that squares cannot hold are refused") {
+TEST_CASE("positions and radii with too large squares are refused") {
     auto b = make_hexagon();
     b.x[3] = {1e200, 0};
     REQUIRE_THROWS_WITH(b.pores(), contains_text("position of particle 3 = 1e+200: must be"));
@@ -283,7 +283,7 @@ TEST_CASE("signs are exact where rounding would decide") {
     REQUIRE(inside(1 - 0x1p-53, 0) > 0);
     REQUIRE(inside(1 + 0x1p-52, 0) < 0);
     REQUIRE(inside(1, 1e-30) > 0);
-    // (1 + e)^2 ... : e (1 + e) 2 is the power by hand.
+    // With x = 1 + e the power is 2 e (1 + e), by hand.
     REQUIRE(inside(1 + 0x1p-40, std::sqrt(0x1p-39) * 0.999) < 0);
     REQUIRE(inside(1 + 0x1p-40, std::sqrt(0x1p-39) * 1.001) > 0);
     // A cube's corners are on one sphere.
@@ -303,7 +303,7 @@ TEST_CASE("signs are exact where rounding would decide") {
     REQUIRE(of_cube.inside({0, 1, 2, 4}, 7) < 0);
 }
 
-TEST_CASE("inserting one by one fills lattices, where all is a tie, and agrees with Qhull where nothing is") {
+TEST_CASE("incremental insertion fills lattices, with many points on circles, and agrees with Qhull on random points") {
     detail::weighted_sites<2> square;
     detail::weighted_sites<3> cubic;
     for (int i = 0; i < 9; ++i)
@@ -379,12 +379,12 @@ TEST_CASE("the check of a triangulation finds a wrong diagonal, a hole, a lost p
         }
     REQUIRE(flips > 15);
 
-    // A disc in the middle that no simplex knows of.
+    // A disc in the middle that is a corner of no simplex.
     sites.x.push_back({0.2, 0.2});
     sites.radius.push_back(0.05);
     sites.shift.push_back(0);
     REQUIRE_FALSE(holds(right));
-    // Hidden it may be left out; outside it may not.
+    // A hidden disc may be missing; a disc outside the hull may not.
     sites.radius.back() = 0;
     sites.x.back() = {0.125 + 0.01, 0.0 + 0.01};
     REQUIRE(holds(right));
@@ -392,7 +392,7 @@ TEST_CASE("the check of a triangulation finds a wrong diagonal, a hole, a lost p
     REQUIRE_FALSE(holds(right));
 }
 
-TEST_CASE("particles without pores are told why, and by their numbers") {
+TEST_CASE("a refusal of particles without pores names the reason and the particles") {
     auto const refuse = [](body<2> const& b) {
         try {
             refuse_no_pores(view_points(b.x), b.r.data());

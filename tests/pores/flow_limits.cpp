@@ -47,7 +47,7 @@ double exact_limit(pore_network<double, 2> const& net, double bulk_modulus) {
     return 2 / solver.eigenvalues()[n - 1];
 }
 
-/// Largest pressure after so many steps from random ones within +-1.
+/// Largest magnitude of a pressure after a number of steps, from random pressures within +-1.
 template <class Solver>
 double growth(Solver flow, double dt, int steps) {
     std::mt19937_64 engine(77);
@@ -109,11 +109,11 @@ TEST_CASE("one wide throat: eq. 19 with the mean aperture blows up, the rigorous
     REQUIRE(growth(flow, flow.critical_time_step(), 20000) <= 1);
 }
 
-TEST_CASE("the limit of a body's pores, apertures taken from gaps") {
+TEST_CASE("the limit of the pores of a packing, with apertures from gaps") {
     auto const b = bodies::scattered(19, 8, 9, 0.7, 0.98);
     using solver = explicit_flow::solver<double, 2>;
     auto flow = b.flow<solver>(body::settings<solver>());
-    flow.refresh_apertures(b.place(), body::no_force);
+    flow.refresh_apertures(b.records(), body::no_force);
     double const exact = exact_limit(flow.network(), 1000);
     REQUIRE(flow.critical_time_step() <= exact);
     REQUIRE(flow.critical_time_step() >= 0.5 * exact);
@@ -121,7 +121,7 @@ TEST_CASE("the limit of a body's pores, apertures taken from gaps") {
     REQUIRE(growth(flow, 1.01 * exact, 20000) > 1e3);
 }
 
-TEST_CASE("steps within a step: the same as so many steps of rigid pores") {
+TEST_CASE("substeps give the same as as many steps of rigid pores") {
     auto p = unit();
     auto const net = make_bare_network<double>({1, 2, 3}, {{0, 1, 1, 1}, {1, 2, 1, 0.7}, {2, -1, 1, 0.5, 4.0}});
     bare_solver many(p, net);
@@ -139,7 +139,7 @@ TEST_CASE("steps within a step: the same as so many steps of rigid pores") {
     REQUIRE_THAT(one.network().sources[0].volume, WithinRel(many.network().sources[0].volume, 1e-13));
 }
 
-TEST_CASE("steps within a step: the change of volume is spread evenly") {
+TEST_CASE("substeps take equal parts of the change of volume") {
     using solver = explicit_flow::solver<double, 2>;
     body b;
     b.x = {{0, 0}, {2, 0}, {1, std::sqrt(3.0)}, {3, std::sqrt(3.0)}};
@@ -151,9 +151,9 @@ TEST_CASE("steps within a step: the change of volume is spread evenly") {
         double const before = flow.network().volume[0];
         auto moved = b;
         for (auto& x : moved.x) x = x * 1.1;
-        flow.step<true>(moved.place(), body::no_force, 1e-9);
+        flow.step<true>(moved.records(), body::no_force, 1e-9);
         double const after = flow.network().volume[0];
-        // Both pores alike: nothing flows. By hand, from one volume to the next.
+        // Both pores are alike, so nothing flows. By hand, from one volume to the next.
         double expected = 0;
         for (int k = 1; k <= substeps; ++k)
             expected -= 1000 * (after - before) / substeps / (before + (after - before) * k / substeps);
@@ -166,7 +166,7 @@ TEST_CASE("steps within a step: the change of volume is spread evenly") {
     REQUIRE_THAT(pressed(2000), WithinRel(-1000.0, 1e-3));
 }
 
-TEST_CASE("as many steps within a step as are safe") {
+TEST_CASE("as many substeps as are safe") {
     auto p = unit();
     std::vector<bare_throat<double>> list;
     for (int i = 0; i + 1 < 20; ++i) list.push_back({i, i + 1, 1, 0.5 + 0.1 * (i % 7)});
@@ -191,7 +191,7 @@ TEST_CASE("as many steps within a step as are safe") {
     REQUIRE_THROWS_WITH(p.validate("flow"), contains_text("flow.interval = 0: must be from 1"));
 }
 
-TEST_CASE("a step of no time lets pressures follow volumes and nothing flow") {
+TEST_CASE("in a step of 0 s pressures follow volumes, and nothing flows") {
     using solver = explicit_flow::solver<double, 2>;
     auto const rest = bodies::scattered(13, 5, 6, 0.7, 0.95);
     auto flow = rest.flow<solver>(body::settings<solver>());
@@ -200,7 +200,7 @@ TEST_CASE("a step of no time lets pressures follow volumes and nothing flow") {
     auto const before = flow.network();
     auto b = rest;
     bodies::stir(b, rest, 0.3);
-    flow.step<true>(b.place(), body::no_force, 0);
+    flow.step<true>(b.records(), body::no_force, 0);
     for (std::size_t k = 0; k < before.pores(); ++k) {
         double const v = flow.network().volume[k];
         REQUIRE(v != before.volume[k]);

@@ -46,7 +46,7 @@ TEST_CASE("angle of a vector agrees with the standard library") {
         double const y = std::fabs(3 * std::sin(angle)), x = 3 * std::cos(angle);
         REQUIRE_THAT(detail::upper_angle(y, x), WithinAbs(std::atan2(y, x), 5e-16));
     }
-    for (int k = 0; k <= 400; ++k) { // on both sides of the angles where the reduction changes over
+    for (int k = 0; k <= 400; ++k) { // on both sides of the angles at which the reduction changes
         double const angle = pi * (k / 4 % 4 * 2 + 1) / 8 + 1e-3 * (k / 400.0 - 0.5);
         double const y = std::sin(angle), x = std::cos(angle);
         REQUIRE_THAT(detail::upper_angle(y, x), WithinAbs(std::atan2(y, x), 5e-16));
@@ -84,7 +84,7 @@ TEST_CASE("void of three unequal touching discs") {
         REQUIRE_THAT(triangle_area(d.x[0], d.x[1], d.x[2]), WithinRel(reference(id, "triangle_area"), 1e-12));
         REQUIRE_THAT(triangle_area(d.x[0], d.x[2], d.x[1]), WithinRel(-reference(id, "triangle_area"), 1e-12));
         for (int c = 0; c < 3; ++c) {
-            // The references carry twelve digits; the formulas of their derivation go on.
+            // The references have twelve digits; the formulas of their derivation give more.
             auto const ri = r[std::size_t(c)], rj = r[std::size_t((c + 1) % 3)], rk = r[std::size_t((c + 2) % 3)];
             double const angle = 2 * std::atan(std::sqrt(rj * rk / (ri * (ri + rj + rk))));
             double const computed = corner_angle(d.x[c], d.x[(c + 1) % 3], d.x[(c + 2) % 3]);
@@ -94,14 +94,14 @@ TEST_CASE("void of three unequal touching discs") {
             REQUIRE_THAT(norm(traction_on(d, c, 1)), WithinRel(2 * ri * std::sin(angle / 2), 1e-14));
         }
     }
-    auto const places = reference_table("9c.positions");
+    auto const positions = reference_table("9c.positions");
     auto const d = touching(1.5, 1.75, 2.0);
     for (int c = 0; c < 3; ++c)
         for (int axis = 0; axis < 2; ++axis)
-            REQUIRE_THAT(d.x[c][axis], WithinAbs(places[std::size_t(c)][std::size_t(axis)], 1e-11));
+            REQUIRE_THAT(d.x[c][axis], WithinAbs(positions[std::size_t(c)][std::size_t(axis)], 1e-11));
 }
 
-TEST_CASE("volume is floored, also for a triangle that turned over") {
+TEST_CASE("volume is floored, also for an inverted triangle") {
     point const a{0, 0}, b{1, 0}, c{0.5, 0.1};
     REQUIRE(void_area(a, b, c, 0.5, 0.5, 0.5) < 0);
     REQUIRE(pore_volume(a, b, c, 0.5, 0.5, 0.5, 2.0, 1e-3) == 1e-3);
@@ -154,7 +154,7 @@ TEST_CASE("dual numbers give the same derivative as the tractions") {
             REQUIRE_THAT(v.derivative[2 * c + axis], WithinAbs(traction_on(d, c, 1)[axis], 1e-13));
 }
 
-TEST_CASE("uniform pressure gives a pore no net force and no net moment, touching or not") {
+TEST_CASE("the forces of a uniform pressure on a pore's discs have no sum and no moment, touching or not") {
     std::mt19937_64 engine(5);
     for (int trial = 0; trial < 200; ++trial) {
         three_discs d;
@@ -174,7 +174,7 @@ TEST_CASE("uniform pressure gives a pore no net force and no net moment, touchin
     }
 }
 
-TEST_CASE("packs give lane by lane what numbers give") {
+TEST_CASE("packs give in each lane the same as plain numbers") {
     using row = pack<double, 4>;
     std::mt19937_64 engine(7);
     vec<row, 2> x[3];

@@ -39,7 +39,7 @@ throats line_of(int count) {
     return list;
 }
 
-/// Solves a full system by elimination with pivots.
+/// Solves a full system by Gaussian elimination with pivoting.
 std::vector<double> eliminate(std::vector<std::vector<double>> a, std::vector<double> b) {
     std::size_t const n = b.size();
     for (std::size_t k = 0; k < n; ++k) {
@@ -102,7 +102,7 @@ constexpr auto drained_top = [](auto const& throat) -> throat_boundary<double> {
     return {throat.side == body_side::top ? boundary_kind::drained : boundary_kind::sealed, 0.3};
 };
 
-/// A body stirred for a time of 1 in so many steps, from the same pressures.
+/// Flow in a packing stirred for 1 s in a number of steps, always from the same pressures.
 template <class Solver>
 Solver stirred(int steps, typename Solver::parameters const& p, int threads = 1) {
     auto const rest = bodies::scattered(71, 6, 8, 0.7, 0.95);
@@ -112,14 +112,14 @@ Solver stirred(int steps, typename Solver::parameters const& p, int threads = 1)
     auto b = rest;
     for (int s = 1; s <= steps; ++s) {
         bodies::stir(b, rest, double(s) / steps, 0.002);
-        flow.template step<true>(b.place(), body::no_force, 1.0 / steps, threads);
+        flow.template step<true>(b.records(), body::no_force, 1.0 / steps, threads);
     }
     return flow;
 }
 
 } // namespace
 
-TEST_CASE("implicit: a pulse in a line, at first order to the matrix exponential") {
+TEST_CASE("implicit: a pulse in a line converges to the matrix exponential at first order") {
     double const coarse = error_at_5(500), middle = error_at_5(1000), fine = error_at_5(2000);
     REQUIRE(fine < 2e-3);
     REQUIRE_THAT(std::log2(coarse / middle), WithinAbs(1, 0.02));
@@ -147,7 +147,7 @@ TEST_CASE("implicit: a step is the solution of its equations") {
         auto const before = flow.network();
         bodies::stir(b, rest, 0.1 * s);
         double const dt = 30 * flow_critical_time_step(before, p.bulk_modulus);
-        flow.step<true>(b.place(), body::no_force, dt);
+        flow.step<true>(b.records(), body::no_force, dt);
         auto const expected = by_elimination(before, flow.network(), p.bulk_modulus, dt);
         double largest = 0;
         for (double const q : expected) largest = std::max(largest, std::fabs(q));
@@ -182,7 +182,7 @@ TEST_CASE("implicit and explicit agree as the step shrinks, at first order") {
     REQUIRE_THAT(std::log2(middle / fine), WithinAbs(1, 0.05));
 }
 
-TEST_CASE("implicit: mass and energy balance in every step of a moving body, however long") {
+TEST_CASE("implicit: mass and energy balance in every step of a moving packing, however long") {
     double const times = GENERATE(0.5, 30.0, 1e3, 1e6);
     auto p = body::settings<implicit_solver>();
     auto const rest = bodies::scattered(41, 9, 12, 0.75, 1.05);
@@ -196,7 +196,7 @@ TEST_CASE("implicit: mass and energy balance in every step of a moving body, how
         auto const before = flow.network();
         auto const totals = flow.ledger();
         double const energy = flow.storage_energy();
-        flow.step<true>(b.place(), body::no_force, dt);
+        flow.step<true>(b.records(), body::no_force, dt);
         auto const& net = flow.network();
         double content = 0, gross = 0, inflow = 0;
         for (std::size_t k = 0; k < net.pores(); ++k) {
@@ -227,7 +227,7 @@ TEST_CASE("implicit: a rigid network is analysed and factorised once") {
     for (int i = 0; i < 50; ++i) flow.advance(3.0);
     REQUIRE(flow.solver_counters().analyses == 1);
     REQUIRE(flow.solver_counters().factorisations == 1);
-    // An exact factorisation takes one iteration a step.
+    // With an exact factorisation a step takes one iteration.
     REQUIRE(flow.solver_counters().iterations == 50);
     flow.advance(4.0);
     REQUIRE(flow.solver_counters().factorisations == 2);
@@ -239,7 +239,7 @@ TEST_CASE("implicit: a rigid network is analysed and factorised once") {
     REQUIRE(flow.solver_counters().factorisations == 3);
 }
 
-TEST_CASE("implicit: numbers are factorised anew when they have changed by more than the tolerance") {
+TEST_CASE("implicit: coefficients are factorised again after a change above the tolerance") {
     auto p = body::settings<implicit_solver>();
     p.factorisation_tolerance = 0.2;
     auto const rest = bodies::triangular(6, 8);
@@ -248,10 +248,10 @@ TEST_CASE("implicit: numbers are factorised anew when they have changed by more 
     double const dt = 50 * flow_critical_time_step(flow.network(), p.bulk_modulus);
     flow.set_pressure(0, 1.0);
     auto b = rest;
-    // Apart by a strain e the gaps are 2 e, and conductances rise by (1 + 20 e)^3 / ...; volumes by a known amount.
+    // At a strain e the gaps are 2 e, and conductances rise by (1 + 20 e)^3 / ...; volumes by a known amount.
     auto const stretch = [&](double e) {
         for (std::size_t i = 0; i < b.x.size(); ++i) b.x[i] = rest.x[i] * (1 + e);
-        flow.step<true>(b.place(), body::no_force, dt);
+        flow.step<true>(b.records(), body::no_force, dt);
         return flow.solver_counters().factorisations;
     };
     REQUIRE(stretch(0) == 1);
@@ -292,13 +292,13 @@ TEST_CASE("implicit: steps far above the explicit limit stay within the range of
         for (double const q : flow.network().pressure) REQUIRE_THAT(q, WithinAbs(0.3, 1e-8));
     REQUIRE(flow.critical_time_step() == std::numeric_limits<double>::infinity());
 
-    // The explicit scheme at a thousandth of that has left the range long since.
+    // The explicit scheme leaves the range even in steps of a thousandth of that.
     auto const fast = rest.flow<explicit_solver>(body::settings<explicit_solver>(), drained_top);
     REQUIRE(fast.critical_time_step() == flow_critical_time_step(flow.network(), p.bulk_modulus));
 }
 
-TEST_CASE("implicit: throats that open a thousandfold are followed") {
-    // Apertures from 0.1 to 10 and back: conductances change by a million between steps.
+TEST_CASE("implicit: conductances that change by a factor of a million are followed") {
+    // Apertures go from 0.1 to 10 and back: conductances change by a factor of a million between steps.
     auto p = body::settings<implicit_solver>();
     auto b = bodies::triangular(5, 6);
     auto const rest = b;
@@ -308,7 +308,7 @@ TEST_CASE("implicit: throats that open a thousandfold are followed") {
     for (int s = 0; s < 6; ++s) {
         for (std::size_t i = 0; i < b.x.size(); ++i) b.x[i] = rest.x[i] * (s % 2 ? 1 : 6);
         auto const before = flow.network();
-        flow.step<true>(b.place(), body::no_force, dt);
+        flow.step<true>(b.records(), body::no_force, dt);
         auto const expected = by_elimination(before, flow.network(), p.bulk_modulus, dt);
         for (std::size_t k = 0; k < expected.size(); ++k)
             REQUIRE_THAT(flow.network().pressure[k], WithinAbs(expected[k], 1e-6 * std::fabs(expected[k])));
@@ -361,8 +361,8 @@ TEST_CASE("implicit: single precision follows double") {
     double const dt = 20 * flow_critical_time_step(flow.network(), 1000.0);
     float const none[4] = {0, 0, 0, 0};
     for (int s = 0; s < 10; ++s) {
-        flow.step<true>(b.place(), body::no_force, dt);
-        single.step<true>(b.place<float>(), none, float(dt));
+        flow.step<true>(b.records(), body::no_force, dt);
+        single.step<true>(b.records<float>(), none, float(dt));
     }
     for (std::size_t k = 0; k < flow.network().pores(); ++k)
         REQUIRE_THAT(double(single.network().pressure[k]), WithinAbs(flow.network().pressure[k], 1e-4));

@@ -71,7 +71,7 @@ struct body {
         auto const points = view_points(x);
         return {p, make_pore_network(triangulate_body(points, r.data()), points, r.data(), top), 1.0, points, r.data()};
     }
-    body_column<double> place() const {
+    body_column<double> records() const {
         body_column<double> column;
         column.resize(x.size());
         for (std::size_t i = 0; i < x.size(); ++i) {
@@ -131,7 +131,7 @@ TEST_CASE("two merged pores empty into a reservoir like one of their volume") {
     REQUIRE_THAT(content(flow) - start, WithinRel(flow.ledger().boundary_inflow, 1e-10));
 }
 
-TEST_CASE("merging is the limit of a throat that lets ever more through") {
+TEST_CASE("merging is the limit of a throat of ever larger conductance") {
     std::vector<double> const volumes{1, 0.7, 0.4, 1.3, 0.9};
     auto const run = [&](double middle, double merge, double dt) {
         auto flow = line(volumes, {0.003, 0.002, middle, 0.004}, merge, 0.001, 0.5);
@@ -150,7 +150,7 @@ TEST_CASE("merging is the limit of a throat that lets ever more through") {
         auto const whole = run(conductance, infinity, dt);
         double error = 0;
         for (std::size_t k = 0; k < 5; ++k) error = std::max(error, std::fabs(whole[k] - merged[k]));
-        // The difference goes down with the resistance.
+        // The difference decreases with the resistance.
         if (last < infinity) REQUIRE_THAT(last / error, WithinRel(10.0, 0.2));
         last = error;
     }
@@ -170,14 +170,14 @@ TEST_CASE("an infinite threshold changes no bit, and neither does one that no th
     double const dt = 0.5 * plain.critical_time_step();
     REQUIRE(high.critical_time_step() == plain.critical_time_step());
     for (int n = 0; n < 20; ++n) {
-        plain.step<true>(b.place(), body::no_force, dt);
-        high.step<true>(b.place(), body::no_force, dt);
+        plain.step<true>(b.records(), body::no_force, dt);
+        high.step<true>(b.records(), body::no_force, dt);
     }
     REQUIRE(plain.network().pressure == high.network().pressure);
     REQUIRE(plain.ledger().dissipation == high.ledger().dissipation);
 }
 
-TEST_CASE("a body that moves: clusters join and part, mass and energy are kept, also where the fluid tears") {
+TEST_CASE("a moving packing: clusters join and split, mass and energy balance, also where the fluid tears") {
     for (bool const tears : {false, true})
         for (int const substeps : {1, 3}) {
             body b(7, 7, 8);
@@ -198,10 +198,10 @@ TEST_CASE("a body that moves: clusters join and part, mass and energy are kept, 
                 auto const old = flow.network();
                 auto const totals = flow.ledger();
                 double const energy = flow.storage_energy();
-                flow.step<true>(b.place(), body::no_force, dt);
+                flow.step<true>(b.records(), body::no_force, dt);
                 auto const& net = flow.network();
                 auto const& l = flow.ledger();
-                // What the clusters of this step began with: the mean of their pores' pressures, vapour closed first.
+                // Initial state of this step's clusters: the mean of their pores' pressures, after vapour has closed.
                 std::vector<double> volume(net.pores()), pressure(net.pores()), vapour(net.pores());
                 for (std::size_t k = 0; k < net.pores(); ++k) {
                     auto const c = flow.clusters().label(k);
@@ -221,7 +221,7 @@ TEST_CASE("a body that moves: clusters join and part, mass and energy are kept, 
                     vapour_seen = std::max(vapour_seen, net.vapour_of(k));
                 }
                 double const inflow = l.boundary_inflow - totals.boundary_inflow;
-                // Over substeps the pressures pass through means of the volumes, which are not seen here.
+                // With substeps the intermediate pressures and volumes are not known here.
                 if (substeps == 1) REQUIRE_THAT(balance - inflow, WithinAbs(0, 1e-12 * gross));
                 REQUIRE_THAT(l.mass_residual, WithinAbs(0, 1e-12 * l.gross_volume));
                 double const gained = (l.reservoir_work - totals.reservoir_work) -
@@ -238,18 +238,18 @@ TEST_CASE("a body that moves: clusters join and part, mass and energy are kept, 
         }
 }
 
-TEST_CASE("pores that part keep their pressure") {
+TEST_CASE("pores that separate keep their pressure") {
     body b(9, 5, 5);
     auto flow = b.flow(parameters(0.01));
     for (std::size_t k = 0; k < flow.network().pores(); ++k) flow.set_pressure(k, double(k));
-    for (int n = 0; n < 2; ++n) flow.step<true>(b.place(), body::no_force, 1e-9);
+    for (int n = 0; n < 2; ++n) flow.step<true>(b.records(), body::no_force, 1e-9);
     REQUIRE(flow.clusters().clusters() > 0);
     auto const before = flow.network().pressure;
-    // A force that closes the throats; it is seen by the step, and the clusters part at the beginning of the next.
+    // A force closes the throats in this step; the clusters split at the beginning of the next.
     std::vector<double> const squeeze{0, -1e9};
     flow.map_throats([](int, int) { return 1; });
-    flow.step<true>(b.place(), squeeze.data(), 1e-9);
-    flow.step<true>(b.place(), squeeze.data(), 1e-9);
+    flow.step<true>(b.records(), squeeze.data(), 1e-9);
+    flow.step<true>(b.records(), squeeze.data(), 1e-9);
     REQUIRE(flow.clusters().clusters() == 0);
     for (std::size_t k = 0; k < flow.network().pores(); ++k)
         REQUIRE_THAT(flow.network().pressure[k], WithinRel(before[k], 1e-4));
@@ -260,7 +260,7 @@ TEST_CASE("forces of a cluster are those of its pressure") {
     auto flow = b.flow(parameters(0.01));
     std::mt19937_64 engine(3);
     for (std::size_t k = 0; k < flow.network().pores(); ++k) flow.set_pressure(k, uniform(engine));
-    for (int n = 0; n < 2; ++n) flow.step<true>(b.place(), body::no_force, 1e-6);
+    for (int n = 0; n < 2; ++n) flow.step<true>(b.records(), body::no_force, 1e-6);
     REQUIRE(flow.clusters().members().size() > 4);
     std::vector<point> expected(b.x.size(), point{});
     auto const& net = flow.network();
@@ -271,22 +271,22 @@ TEST_CASE("forces of a cluster are those of its pressure") {
     }
     record_column<double> force;
     force.resize(b.x.size());
-    flow.step<false>(b.place(), body::no_force, 0, 1, &force);
+    flow.step<false>(b.records(), body::no_force, 0, 1, &force);
     for (std::size_t i = 0; i < b.x.size(); ++i)
         for (int axis = 0; axis < 2; ++axis) REQUIRE_THAT(force.at(i, axis), WithinAbs(expected[i][axis], 1e-12));
 }
 
-TEST_CASE("a restored state with clusters goes on with the same bits, and a bad threshold is refused") {
+TEST_CASE("a restored state with clusters continues with the same bits, and a bad threshold is refused") {
     body const b(13, 6, 6);
     auto flow = b.flow(parameters(0.01));
     std::mt19937_64 engine(4);
     for (std::size_t k = 0; k < flow.network().pores(); ++k) flow.set_pressure(k, uniform(engine));
-    for (int n = 0; n < 5; ++n) flow.step<true>(b.place(), body::no_force, 1e-5);
+    for (int n = 0; n < 5; ++n) flow.step<true>(b.records(), body::no_force, 1e-5);
     auto later = b.flow(parameters(0.01));
     later.restore(flow.network(), flow.ledger());
     for (int n = 0; n < 5; ++n) {
-        flow.step<true>(b.place(), body::no_force, 1e-5);
-        later.step<true>(b.place(), body::no_force, 1e-5);
+        flow.step<true>(b.records(), body::no_force, 1e-5);
+        later.step<true>(b.records(), body::no_force, 1e-5);
     }
     REQUIRE(later.network().pressure == flow.network().pressure);
     REQUIRE(later.ledger().dissipation == flow.ledger().dissipation);
@@ -315,8 +315,8 @@ TEST_CASE("implicit flow: merged pores are one, and follow the explicit clusters
         double const before = content(sealed);
         double const dt = 0.02 / steps;
         for (int n = 0; n < steps; ++n) {
-            other.step<true>(b.place(), body::no_force, dt);
-            sealed.step<true>(b.place(), body::no_force, dt);
+            other.step<true>(b.records(), body::no_force, dt);
+            sealed.step<true>(b.records(), body::no_force, dt);
         }
         auto const& net = other.network();
         REQUIRE(other.clusters().members().size() > 4);

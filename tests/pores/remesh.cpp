@@ -35,7 +35,7 @@ network made(bodies::body const& b, std::vector<std::array<std::int32_t, 3>> con
     auto p = bodies::body::settings<solver>();
     return solver(p, make_pore_network(mesh, b.points(), b.r.data()), 1.0, b.points(), b.r.data()).network();
 }
-/// Another triangulation of the same particles: with other weights.
+/// Another triangulation of the same particles, by other weights.
 network made_with(bodies::body const& b, std::vector<double> const& weights) {
     return made(b, regular_triangulation(b.points(), weights.data()).simplices);
 }
@@ -54,7 +54,7 @@ std::array<std::int32_t, 3> corners_of(network const& net, std::size_t p) {
     return {net.corner[0][p], net.corner[1][p], net.corner[2][p]};
 }
 
-/// Discs apart from each other near the places of a square lattice: a little decides on which diagonal is an edge.
+/// Separate discs near the points of a square lattice: small displacements decide which diagonal is an edge.
 bodies::body cloud(std::uint64_t seed) {
     std::mt19937_64 engine(seed);
     bodies::body b;
@@ -70,7 +70,7 @@ bodies::body square() { return {{{0, 0}, {1, 0}, {1, 1}, {0, 1}}, {0.3, 0.3, 0.3
 
 } // namespace
 
-TEST_CASE("a square whose diagonal turns: both pores take the mean, the content stays") {
+TEST_CASE("a square whose diagonal flips: both pores take the mean, the content stays") {
     auto const b = square();
     auto from = made(b, {{0, 1, 2}, {0, 2, 3}}), to = made(b, {{0, 1, 3}, {1, 2, 3}});
     from.pressure[0] = 5;
@@ -91,7 +91,7 @@ TEST_CASE("vapour is content too: it closes before the pressure rises") {
     auto const b = square();
     auto from = made(b, {{0, 1, 2}, {0, 2, 3}}), to = made(b, {{0, 1, 3}, {1, 2, 3}});
     from.pressure[0] = from.pressure[1] = -2;
-    for (auto* net : {&from, &to}) net->vapour.assign(2, 0.0); // as of a fluid that can tear
+    for (auto* net : {&from, &to}) net->vapour.assign(2, 0.0); // as for a fluid that can tear
     from.vapour[0] = 0.01;
     auto const report = transfer_fluid(from, to, b.points(), modulus, -2.0);
     REQUIRE(to.pressure[0] == -2);
@@ -104,7 +104,7 @@ TEST_CASE("vapour is content too: it closes before the pressure rises") {
     REQUIRE_THAT(to.pressure[0], WithinRel(96.0 / 2 - 0.01 * modulus / volume(from), 1e-12));
 }
 
-TEST_CASE("two triangulations of one cloud: areas, content, bits of what stays, a uniform pressure") {
+TEST_CASE("two triangulations of the same discs: areas, content, bits of unchanged pores, a uniform pressure") {
     for (std::uint64_t seed = 1; seed <= 6; ++seed) {
         auto const b = cloud(seed);
         std::mt19937_64 engine(seed);
@@ -118,7 +118,7 @@ TEST_CASE("two triangulations of one cloud: areas, content, bits of what stays, 
         REQUIRE(report.regions > 1);
         REQUIRE_THAT(content(to), WithinRel(content(from), 1e-12));
         REQUIRE_THAT(report.residual, WithinAbs(0, 1e-12 * report.content));
-        // Both meshes fill the hull and no pore is at its least volume: the discs are in the pores with all their area.
+        // Both meshes fill the hull, and no pore is at its least volume: sectors and voids have the same sums.
         REQUIRE_THAT(volume(to), WithinRel(volume(from), 1e-12));
         REQUIRE_THAT(report.volume, WithinAbs(0, 1e-11));
         std::size_t same = 0;
@@ -154,7 +154,7 @@ TEST_CASE("two triangulations of one cloud: areas, content, bits of what stays, 
     }
 }
 
-TEST_CASE("at the boundary: what goes away gives its content to its neighbours, what is new starts at zero") {
+TEST_CASE("at the boundary: removed pores give their content to neighbours, new ones start at zero") {
     auto b = square();
     b.x.push_back({2, 0.5});
     b.r.push_back(0.3);
@@ -164,7 +164,7 @@ TEST_CASE("at the boundary: what goes away gives its content to its neighbours, 
     auto const less = transfer_fluid(big, lessened, b.points(), modulus, -infinity);
     REQUIRE(less.lost == 0);
     REQUIRE_THAT(content(lessened), WithinRel(content(big), 1e-14));
-    // Pore 0 of the two touches the one that went.
+    // Of the two, pore 0 is next to the removed one.
     REQUIRE(lessened.pressure[1] == 4);
     std::size_t went = 0;
     while (corners_of(big, went) != std::array<std::int32_t, 3>{1, 4, 2}) ++went;
@@ -191,8 +191,8 @@ TEST_CASE("at the boundary: what goes away gives its content to its neighbours, 
     REQUIRE(elsewhere.pressure[0] == 0);
 }
 
-TEST_CASE("a triangle that has turned over gives its fluid to the pores that take its place") {
-    // Disc 3 has moved across the edge 0-1 of a row: the old pore {0, 1, 3} is inside out, {0, 2, 1} has a bite taken.
+TEST_CASE("an inverted triangle gives its fluid to the pores that replace it") {
+    // Disc 3 has moved across the edge 0-1: the old pore {0, 1, 3} is inverted, and covers a part of {0, 2, 1}.
     bodies::body b{{{0, 0}, {2, 0}, {1, -2}, {1, -0.2}}, {0.2, 0.2, 0.2, 0.2}};
     network from = made(b, {{0, 2, 1}}), to = made(b, {{0, 2, 3}, {2, 1, 3}});
     from.pressure[0] = 6;
@@ -202,7 +202,7 @@ TEST_CASE("a triangle that has turned over gives its fluid to the pores that tak
     REQUIRE(report.changed == 2);
 }
 
-TEST_CASE("flows and sources go over to the new network") {
+TEST_CASE("flows and sources are transferred to the new network") {
     auto const b = square();
     auto from = made(b, {{0, 1, 2}, {0, 2, 3}}), to = made(b, {{0, 1, 2}, {0, 2, 3}});
     from.flow[0] = 0.25;
@@ -215,7 +215,7 @@ TEST_CASE("flows and sources go over to the new network") {
     REQUIRE(to.sources[0].pores[0] == 0);
 }
 
-TEST_CASE("solvers go on from a carried network") {
+TEST_CASE("solvers continue from a transferred network") {
     auto const b = cloud(3);
     auto const check = [&](auto flow) {
         using type = decltype(flow);
@@ -231,7 +231,7 @@ TEST_CASE("solvers go on from a carried network") {
         double const before = content(fresh);
         flow.restore(fresh, flow.ledger());
         double const dt = 1e-5;
-        for (int n = 0; n < 50; ++n) flow.template step<true>(b.place(), bodies::body::no_force, dt);
+        for (int n = 0; n < 50; ++n) flow.template step<true>(b.records(), bodies::body::no_force, dt);
         auto const [least, most] = std::minmax_element(flow.network().pressure.begin(), flow.network().pressure.end());
         REQUIRE(*least > 0);
         REQUIRE(*most < 1);
@@ -244,7 +244,7 @@ TEST_CASE("solvers go on from a carried network") {
     check(implicit_solver(bodies::body::settings<implicit_solver>(), made_with(b, b.r), 1.0, b.points(), b.r.data()));
 }
 
-TEST_CASE("what makes a mesh unfit: a turned triangle, a filled pore, a contact without an edge, each once") {
+TEST_CASE("a mesh is unfit with an inverted triangle, a filled pore, a contact without an edge, each once") {
     auto const rest = square();
     auto const net = made(rest, {{0, 1, 2}, {0, 2, 3}});
     mesh_watch<double> watch;
@@ -273,7 +273,7 @@ TEST_CASE("what makes a mesh unfit: a turned triangle, a filled pore, a contact 
     b.x[3] = {0.30, 0.70};
     REQUIRE(norm(b.x[1] - b.x[3]) < 0.6);
     REQUIRE(unfit(net, b));
-    accept(net, b); // a mesh without that edge is taken as it is: then the contact does not count,
+    accept(net, b); // a new mesh without that edge is accepted: the contact does not count,
     REQUIRE_FALSE(unfit(net, b));
     REQUIRE_FALSE(unfit(net, rest)); // until it has opened
     REQUIRE(unfit(net, b));

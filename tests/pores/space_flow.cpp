@@ -43,7 +43,7 @@ double void_of(space_body const& b, pore_network<double, 3> const& net, std::siz
     return void_volume(b.x[at(0)], b.x[at(1)], b.x[at(2)], b.x[at(3)], b.r[at(0)], b.r[at(1)], b.r[at(2)], b.r[at(3)]);
 }
 
-/// A motion that turns pores about.
+/// A motion that deforms and rotates pores.
 void stir(space_body& b, space_body const& rest, double phase, double amplitude) {
     for (std::size_t i = 0; i < b.x.size(); ++i)
         b.x[i] = rest.x[i] + point{std::sin(5 * phase + 0.3 * double(i)), std::cos(4 * phase + 0.7 * double(i)),
@@ -78,7 +78,7 @@ TEST_CASE("tractions in space are the derivatives of the void, without sum and m
         for (std::size_t c = 0; c < 4; ++c) {
             for (int axis = 0; axis < 3; ++axis) {
                 double const h = 1e-3;
-                // Five points: of fourth order.
+                // Five-point formula, of fourth order.
                 double const slope = (8 * (moved(c, axis, h) - moved(c, axis, -h)) - moved(c, axis, 2 * h) +
                                       moved(c, axis, -2 * h)) / (12 * h);
                 REQUIRE_THAT(shape.traction[c][axis], WithinAbs(slope, 1e-6));
@@ -89,7 +89,7 @@ TEST_CASE("tractions in space are the derivatives of the void, without sum and m
         }
         REQUIRE_THAT(norm(sum), WithinAbs(0, 1e-12));
         REQUIRE_THAT(norm(moment), WithinAbs(0, 1e-12));
-        // Stretched about a point, a tetrahedron keeps its angles: sectors stay.
+        // Scaling keeps the angles of a tetrahedron, and so the sectors.
         REQUIRE_THAT(virial, WithinRel(3 * size, 1e-11));
 
         using number = dual<double, 12>;
@@ -107,7 +107,7 @@ TEST_CASE("tractions in space are the derivatives of the void, without sum and m
     }
 }
 
-TEMPLATE_TEST_CASE("a uniform pressure in a body of spheres stays, and leaves inner spheres alone", "", explicit_flow,
+TEMPLATE_TEST_CASE("a uniform pressure between spheres stays, and exerts no force on inner spheres", "", explicit_flow,
                    implicit_flow) {
     using solver = typename TestType::template solver<double, 3>;
     auto const b = GENERATE(bodies::cubic(4), bodies::scattered_spheres(42, 5, 0.6, 0.95));
@@ -117,7 +117,7 @@ TEMPLATE_TEST_CASE("a uniform pressure in a body of spheres stays, and leaves in
     p.minimum_volume_fraction = 1e-9; // no pore at rest at its least volume
     auto flow = b.template flow<solver>(p);
     double const dt = 0.2 * flow_critical_time_step(flow.network(), p.bulk_modulus);
-    for (int s = 0; s < 20; ++s) flow.template step<true>(b.place(), space_body::no_force, dt);
+    for (int s = 0; s < 20; ++s) flow.template step<true>(b.records(), space_body::no_force, dt);
     for (double const q : flow.network().pressure) REQUIRE_THAT(q, WithinRel(3.0, 1e-12));
     for (std::size_t k = 0; k < flow.network().pores(); ++k) REQUIRE(void_of(b, flow.network(), k) > 1e-4);
     auto const force = b.tractions(flow);
@@ -151,7 +151,7 @@ TEST_CASE("along a finite path pressures do the work p dV on the spheres") {
         auto const& net = flow.network();
         for (std::size_t k = 0; k < net.pores(); ++k) flow.set_pressure(k, 1 + 0.5 * std::sin(double(k)));
         auto b = rest, before = rest;
-        flow.step<true>(b.place(), space_body::no_force, 1e-3);
+        flow.step<true>(b.records(), space_body::no_force, 1e-3);
         auto const start = net.volume;
         auto force = b.tractions(flow);
         double work = 0;
@@ -160,7 +160,7 @@ TEST_CASE("along a finite path pressures do the work p dV on the spheres") {
             double const t = double(s) / steps;
             stir(b, rest, 0.5 * t, 0.03);
             for (auto& x : b.x) x = {x[0] * (1 + 0.03 * t), x[1] + 0.05 * t * x[2], x[2] * (1 + 0.02 * t)};
-            flow.step<true>(b.place(), space_body::no_force, 1e-3);
+            flow.step<true>(b.records(), space_body::no_force, 1e-3);
             auto const next = b.tractions(flow);
             for (std::size_t i = 0; i < b.x.size(); ++i) work += dot(force[i] + next[i], b.x[i] - before.x[i]) / 2;
             force = next;
@@ -202,7 +202,7 @@ TEST_CASE("a step of facet throats follows its formulas throat by throat and por
     });
     for (auto& x : b.x) x += point{uniform(engine) - 0.5, uniform(engine) - 0.5, uniform(engine) - 0.5} * 0.01;
     double const dt = 1e-4;
-    flow.step<true>(b.place(), forces.data(), dt);
+    flow.step<true>(b.records(), forces.data(), dt);
     auto const& net = flow.network();
     REQUIRE(net.drained_throats > 0);
     std::vector<double> inflow(net.pores(), 0.0);
@@ -242,7 +242,7 @@ TEST_CASE("a step of facet throats follows its formulas throat by throat and por
         REQUIRE_THAT(norm(force[k] - expected[k]), WithinAbs(0, 1e-10 * (1 + norm(expected[k]))));
 }
 
-TEMPLATE_TEST_CASE("mass is kept in space, and what sources bring adds up", "", explicit_solver, implicit_solver,
+TEMPLATE_TEST_CASE("in space mass is conserved, and the volumes of sources add up", "", explicit_solver, implicit_solver,
                    section_solver) {
     auto const rest = bodies::scattered_spheres(45, 4, 0.6, 0.95);
     auto p = space_body::settings<TestType>();
@@ -256,7 +256,7 @@ TEMPLATE_TEST_CASE("mass is kept in space, and what sources bring adds up", "", 
     for (int s = 0; s < 40; ++s) {
         auto const before = flow.network();
         stir(b, rest, 0.02 * s, 0.01);
-        flow.template step<true>(b.place(), space_body::no_force, dt);
+        flow.template step<true>(b.records(), space_body::no_force, dt);
         auto const& now = flow.network();
         double content = 0, scale = 0, brought = 0;
         for (std::size_t k = 0; k < now.pores(); ++k) {
@@ -318,7 +318,7 @@ TEST_CASE("a facet's section conducts as a tube of its hydraulic radius") {
     double const area = reference("9a.three_equal", "area/R^2"), radius = area / pi;
     REQUIRE_THAT(net.aperture[0], WithinRel(radius, 1e-11));
     REQUIRE_THAT(net.conductance[0], WithinRel(0.8 * area * radius * radius / (2 * viscosity * 2), 1e-10));
-    // Overlapping ones shut it.
+    // Overlapping spheres close it.
     b.r.assign(5, 1.2);
     auto const shut = b.flow<section_solver>(p);
     REQUIRE(shut.network().conductance[0] == 0);
@@ -329,7 +329,7 @@ TEST_CASE("a facet's section conducts as a tube of its hydraulic radius") {
                         contains_text("thickness = 2"));
 }
 
-TEST_CASE("steady flow through a body of spheres is that of a full system of equations") {
+TEST_CASE("steady flow between spheres solves the full system of equations") {
     auto const b = bodies::scattered_spheres(47, 4, 0.62, 0.75);
     auto const net = make_pore_network(triangulate_body(b.points(), b.r.data(), 4.0), b.points(), b.r.data(),
                                        flow_boundaries(reservoir("in", on_side{body_side::back}, 5.0),
@@ -359,7 +359,7 @@ TEST_CASE("steady flow through a body of spheres is that of a full system of equ
     REQUIRE_THAT(now.sources[1].rate, WithinRel(-now.sources[0].rate, 1e-9));
 }
 
-TEST_CASE("facets on the boundary of a cube: kinds, sides, areas, places of pores") {
+TEST_CASE("facets on the boundary of a cube: kinds, sides, areas, locations of pores") {
     int const n = 4;
     auto const b = bodies::cubic(n);
     std::array<double, 6> area{};
@@ -380,12 +380,12 @@ TEST_CASE("facets on the boundary of a cube: kinds, sides, areas, places of pore
     REQUIRE(net.drained_throats == 18);
     REQUIRE(net.throats() - net.open_throats() == 5 * 18);
     REQUIRE(net.sources.size() == 1);
-    // A tetrahedron has four facets, each inner one in two of them.
+    // A tetrahedron has four facets; an inner facet belongs to two tetrahedra.
     REQUIRE(2 * net.interior_throats + 6 * 18 == 4 * net.pores());
     for (std::size_t t = 0; t < net.throats(); ++t) {
         auto const one = std::size_t(net.throat_pore[0][t]);
         if (t >= net.interior_throats) REQUIRE(net.location[one] != pore_location::interior);
-        // Its particles turn counter-clockwise as seen from outside pore [0].
+        // Its particles are counter-clockwise as seen from outside pore [0].
         auto const at = [&](std::size_t k) { return b.x[std::size_t(net.throat_particle[k][t])]; };
         point const inward = pore_middle(net, one, b.points()) - at(0);
         REQUIRE(dot(cross(at(1) - at(0), at(2) - at(0)), inward) < 0);
@@ -394,8 +394,8 @@ TEST_CASE("facets on the boundary of a cube: kinds, sides, areas, places of pore
     REQUIRE(net.location[find_pore(net, b.points(), point{-9, 3, 3})] == pore_location::sealed);
 }
 
-TEST_CASE("a flat tetrahedron is a pore at its least volume, of no force") {
-    // Four spheres nearly on a circle, and one above: of the two tetrahedra one may be as flat as it likes.
+TEST_CASE("a flat tetrahedron is a pore at its least volume, and exerts no force") {
+    // Four spheres nearly on a circle: their tetrahedron is nearly flat.
     space_body b{{{1, 0, 0}, {0, 1, 0}, {-1, 0, 1e-5}, {0, -1, 0}}, std::vector<double>(4, 0.5)};
     pore_mesh<3> mesh;
     mesh.simplices = {{0, 1, 2, 3}};
@@ -407,7 +407,7 @@ TEST_CASE("a flat tetrahedron is a pore at its least volume, of no force") {
     auto p = space_body::settings<explicit_solver>();
     p.initial_pressure = 7;
     explicit_solver flow(p, net, 1.0, b.points(), b.r.data());
-    flow.step<true>(b.place(), space_body::no_force, 1e-3);
+    flow.step<true>(b.records(), space_body::no_force, 1e-3);
     REQUIRE(flow.network().volume[0] == 1e-3 * net.size[0]);
     for (auto const& f : b.tractions(flow)) REQUIRE(norm(f) == 0);
 }
@@ -445,9 +445,9 @@ TEST_CASE("threads, float and merged pores in space") {
     double missing = 0, gross = 0;
     for (int s = 0; s < 10; ++s) {
         stir(b, rest, 0.01 * s, 0.002);
-        one.step<true>(b.place(), space_body::no_force, dt, 1);
-        two.step<true>(b.place(), space_body::no_force, dt, 3);
-        third.step<true>(b.place<float>(), no_force, float(dt));
+        one.step<true>(b.records(), space_body::no_force, dt, 1);
+        two.step<true>(b.records(), space_body::no_force, dt, 3);
+        third.step<true>(b.records<float>(), no_force, float(dt));
         missing += std::fabs(one.ledger().mass_residual);
         gross += one.ledger().gross_volume;
     }

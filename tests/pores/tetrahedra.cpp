@@ -144,14 +144,14 @@ TEST_CASE("four touching spheres") {
     // The joints of three spheres with each other are the middles of the edges.
     REQUIRE_THAT(triangle_area((x[0] + x[1]) * 0.5, (x[1] + x[2]) * 0.5, (x[2] + x[0]) * 0.5) / (radius * radius),
                  WithinRel(reference("9g.3D_four_spheres", "contact_triangle_area/R^2"), 1e-11));
-    // The facet is 9a's triangle of three discs; half a circle of arc bounds what they leave.
+    // The facet is 9a's triangle of three discs; arcs of half a circle in total bound its void.
     auto const facet = measure_facet(x[0], x[1], x[2], radius, radius, radius);
     REQUIRE_THAT(facet.void_area / (radius * radius), WithinRel(reference("9a.three_equal", "area/R^2"), 1e-11));
     REQUIRE_THAT(facet.hydraulic_radius / radius,
                  WithinRel(reference("9a.three_equal", "area/R^2") / pi, 1e-11));
 }
 
-TEST_CASE("an octahedron of touching spheres, however it is cut up") {
+TEST_CASE("an octahedron of touching spheres, however it is divided") {
     points const x{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
     double const radius = std::sqrt(0.5);
     std::vector<double> const r(6, radius);
@@ -341,7 +341,7 @@ TEST_CASE("dense packings in space, each sphere laid against three: every contac
     for (auto const& [a, b] : contacts) REQUIRE(has_edge(mesh, a, b));
 }
 
-TEST_CASE("slivers over a layer of spheres are peeled, a bay is opened") {
+TEST_CASE("slivers over a layer of spheres and pores in a bay are peeled") {
     auto p = make_cubic(5);
     std::mt19937_64 engine(21);
     // Layers sink by up to a twentieth of a radius: the hull has slivers over each side.
@@ -365,7 +365,7 @@ TEST_CASE("slivers over a layer of spheres are peeled, a bay is opened") {
     }
     auto const open = body_of(bay.x, bay.r);
     require_well_formed(open, bay.x);
-    // Of the bay's 4 x 4 x 4 cubes only what hides in its edges, behind diagonals of sqrt(3) at most, stays.
+    // In the bay of 4 x 4 x 4 cubes only simplices along its edges stay, behind diagonals of at most sqrt(3).
     REQUIRE(size_of(open, bay.x) < 216 - 40);
     REQUIRE(size_of(open, bay.x) >= 216 - 64 - 1e-6);
     REQUIRE(body_of(bay.x, bay.r, 0.5).size() == 0);

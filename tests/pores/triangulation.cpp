@@ -31,7 +31,7 @@ pore_mesh<2> body_of(points const& x, std::vector<double> const& r, double cutof
 }
 double area_of(pore_mesh<2> const& mesh, points const& x) { return mesh_size(mesh, view_points(x)); }
 
-/// Area of the convex hull by wrapping it like a gift.
+/// Area of the convex hull, by gift wrapping.
 double wrapped_area(points const& x) {
     std::size_t const start = std::size_t(
         std::min_element(x.begin(), x.end(),
@@ -176,7 +176,7 @@ TEST_CASE("random discs: fills the hull, and no disc enters a triangle's orthogo
     }
 }
 
-TEST_CASE("radii move the edges: weights differ from none") {
+TEST_CASE("radii change the edges") {
     points const x{{-1, 0}, {1, 0}, {0, 0.9}, {0, -0.9}};
     REQUIRE(has_edge(mesh_of(x, {0, 0, 0, 0}), 2, 3));
     REQUIRE_FALSE(has_edge(mesh_of(x, {0, 0, 0, 0}), 0, 1));
@@ -201,7 +201,7 @@ TEST_CASE("lattices, with many particles on one circle, are filled") {
             }
 }
 
-TEST_CASE("lattices that differ by rounding from straight rows are filled, turned or not") {
+TEST_CASE("lattices that differ by rounding from straight rows are filled, rotated or not") {
     std::mt19937_64 engine(13);
     for (double const noise : {1e-16, 1e-14, 1e-12, 1e-10, 1e-8, 1e-4})
         for (bool const hexagonal : {false, true})
@@ -215,7 +215,7 @@ TEST_CASE("lattices that differ by rounding from straight rows are filled, turne
                 require_well_formed(mesh, l.x);
                 REQUIRE_THAT(area_of(mesh, l.x),
                              WithinRel(hexagonal ? hexagonal_hull(25) : 576.0, 1e-9 + 10 * noise));
-                // The slivers along the rows are not part of the body: the lattice's own triangles are left.
+                // Peeling removes the slivers along the rows, and leaves the lattice's own triangles.
                 auto const body = body_of(l.x, l.r);
                 REQUIRE(body.size() == std::size_t(hexagonal ? 2 * 24 * 24 + 23 : 2 * 24 * 24));
             }
@@ -230,7 +230,7 @@ TEST_CASE("a hundred discs on one circle") {
     REQUIRE_THAT(area_of(mesh, x), WithinRel(50 * std::sin(2 * pi / 100), 1e-10));
 }
 
-TEST_CASE("of particles at one place, exactly or nearly, the largest is a corner") {
+TEST_CASE("if centres coincide, exactly or nearly, only the largest particle is a corner") {
     auto l = make_lattice(6, 6, false);
     for (int k = 0; k < 36; k += 2) {
         l.x.push_back(l.x[std::size_t(k)] + point{k % 4 ? 1e-14 : 0.0, 0});
@@ -323,7 +323,7 @@ TEST_CASE("dense packings of radii from 1 to 10, each disc laid against two: eve
     }
 }
 
-TEST_CASE("far from the origin, and with pairs nearly at one place") {
+TEST_CASE("far from the origin, and with nearly coincident pairs") {
     std::mt19937_64 engine(29);
     for (double const offset : {0.0, 1e3, 1e6}) {
         points x;
@@ -338,7 +338,7 @@ TEST_CASE("far from the origin, and with pairs nearly at one place") {
         }
         points moved;
         for (auto const& y : x) moved.push_back(y + point{offset, -3 * offset});
-        // Places of the moved points as their rounded numbers have them.
+        // Positions of the moved points, after rounding.
         points back;
         for (auto const& y : moved) back.push_back(y - point{offset, -3 * offset});
         auto const mesh = mesh_of(moved, r);
@@ -359,8 +359,8 @@ TEST_CASE("a strip of particles hardly wider than a line") {
     }
 }
 
-TEST_CASE("peeling takes away long outer edges, inwards, and nothing within") {
-    // A U of lattice discs: its bay, five wide, is bridged by the hull.
+TEST_CASE("peeling removes long outer edges, from outside inwards, and nothing in the interior") {
+    // A U of lattice discs: the hull bridges its bay, which is five wide.
     auto const full = make_lattice(9, 11, false);
     lattice u;
     for (std::size_t k = 0; k < full.x.size(); ++k) {
@@ -379,7 +379,7 @@ TEST_CASE("peeling takes away long outer edges, inwards, and nothing within") {
     REQUIRE(body_of(u.x, u.r, infinity).size() == mesh.size());
     REQUIRE(body_of(u.x, u.r, 0.5).size() == 0);
 
-    // The same hole within the body is not on its boundary: it stays a few large pores.
+    // The same hole in the interior is not on the boundary: it remains as a few large pores.
     lattice o;
     for (std::size_t k = 0; k < full.x.size(); ++k) {
         bool const hole = full.x[k][1] > 2.5 && full.x[k][1] < 5.5 && full.x[k][0] > 2.5 && full.x[k][0] < 7.5;

@@ -21,7 +21,7 @@ struct random_packing_parameters {
     double height = 300e-6;           ///< of the rectangle, from y = 0, m
     double r_min = 1.5e-6;            ///< smallest radius, m
     double r_max = 2e-6;              ///< largest radius, m; at most 4 r_min
-    double area_fraction = 0.84;      ///< share of the rectangle that discs and obstacles cover, 0 to 0.9069
+    double area_fraction = 0.84;      ///< area of discs and obstacles inside the rectangle over its area, 0 to 0.9069
     double overlap_tolerance = 0.01;  ///< largest overlap of a pair over its smaller radius, 1e-4 to 0.1
     double fraction_tolerance = 0.01; ///< largest shortfall of the area fraction; > 0
     packing_side left_right = packing_side::hard;

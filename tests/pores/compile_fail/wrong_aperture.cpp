@@ -3,7 +3,7 @@
 
 #include <lacuna/pores/flow/flow_parameters.hpp>
 
-/// Takes the gap alone: an aperture law is also told the normal force.
+/// Takes the gap only, but an aperture law also gets the normal force.
 struct gap_aperture {
     struct parameters {
         void validate(std::string const&) const {}

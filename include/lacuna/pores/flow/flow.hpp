@@ -95,7 +95,7 @@ concept flow_solver = flow_settings<Solver> && flow_network<Solver, Real, Dim> &
     flow_energies<Solver, Real> && flow_restore<Solver, Real, Dim> && flow_serialize<Solver>;
 } // namespace detail
 
-/// Requirements on the flow policy of a model, such as explicit_flow, implicit_flow and no_flow. The policy has
+/// Requirements on the flow policy of a model. Policies are explicit_flow, implicit_flow and no_flow. A policy has
 ///   - `parameters`: an aggregate with defaults and `validate(std::string const& name)`;
 ///   - `solver<Real, Dim>`: copyable, constructed from (parameters, network, thickness, points, radii).
 ///

@@ -106,8 +106,8 @@ T determinant(std::array<std::array<T, N>, N> const& m) {
     }
 }
 
-/// Particles of a triangulation as exact_signs uses them: positions, scaled by a power of two such that no coordinate
-/// exceeds 1, and weights r^2 + shift.
+/// Particles of a triangulation as exact_signs uses them: positions, and weights r^2 + shift. Lengths are scaled by a
+/// power of two such that no coordinate or radius exceeds 1.
 template <int Dim>
 struct weighted_sites {
     std::vector<std::array<double, std::size_t(Dim)>> x;

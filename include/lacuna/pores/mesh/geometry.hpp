@@ -85,8 +85,8 @@ T pore_volume(vec<T, 2> const& a, vec<T, 2> const& b, vec<T, 2> const& c, T cons
 ///
 /// The joint is the point of equal power with respect to both discs, (d^2 + r_i^2 - r_j^2) / (2 d^2). Where the discs
 /// touch, it is the contact point, r_i / (r_i + r_j). At any gap or overlap it is the only point for which the chords
-/// of the paper's eq. 16 are the derivatives of the pore volume. The radical axis of the discs, an edge of the power
-/// diagram, crosses the line of centres there as well.
+/// of the paper's eq. 16 are the derivatives of the pore volume. The radical axis of the discs, on which their common
+/// edge of the power diagram lies, crosses the line of centres there as well.
 template <class T>
 constexpr T joint_share(vec<T, 2> const& xi, vec<T, 2> const& xj, T const& ri, T const& rj) noexcept {
     T const half = T(value_t<T>(0.5));

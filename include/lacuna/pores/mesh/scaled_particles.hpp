@@ -156,7 +156,7 @@ weighted_sites<Dim> make_sites(std::vector<std::int32_t> const& list, points_vie
         largest = std::max(largest, double(radii[i]));
     }
     double const scale = largest > 0 ? std::ldexp(1.0, -std::ilogb(largest) - 1) : 1;
-    // Products of products of smaller numbers would underflow, and be exact no more.
+    // Products of products of smaller numbers would underflow, and not be exact.
     auto const scaled = [&](double length) { return std::fabs(length) * scale < 0x1p-160 ? 0 : length * scale; };
     weighted_sites<Dim> sites;
     for (std::size_t k = 0; k < list.size(); ++k) {
