@@ -234,14 +234,14 @@ public:
         constexpr bool always = (detail::needs_energy<Observers> || ...);
         constexpr bool sometimes = !always && (detail::samples_energy<Observers> || ...);
         settle_anew();
-        resolve_time_step();
+        time_step();
         (detail::notify_start(observers, *this), ...);
         long long taken = 0;
         for (bool go_on = true; go_on && taken < steps; ++taken) {
             if (sometimes && (detail::wants_energy(observers, step_) || ...))
-                take_step<always || sometimes>();
+                advance<always || sometimes>();
             else
-                take_step<always>();
+                advance<always>();
             for (auto const& event : events_) (detail::notify_break(observers, event, *this), ...);
             (void)std::initializer_list<int>{((go_on = detail::notify_step(observers, *this) && go_on), 0)...};
         }
@@ -250,10 +250,7 @@ public:
     }
 
     long long steps() const noexcept { return step_; }
-    double time_step() const {
-        resolve_time_step();
-        return *time_step_;
-    }
+    double time_step() const;
     double time() const { return clock_.time + double(step_ - clock_.step) * time_step(); }
     /// Failures of the last step.
     std::span<event_type const> events() const noexcept { return events_; }
@@ -264,11 +261,17 @@ public:
         settle_anew();
         take_step<true>();
     }
+    /// One step of run(), without observers, WithEnergy: with the energy ledger. Unlike step() it keeps the time step that
+    /// was first asked for, whatever was set since. Most of a model's code is in it, in time_step() and in limits(): a
+    /// program of several files compiles them once where it declares these three `extern template`, as
+    /// examples/cartilage/run/cartilage_model.hpp does. \throws as step()
+    template <bool WithEnergy>
+    void advance();
 
     /// Limits of the time step in the present state, by what the control of the step counts: bonds,
     /// contacts of particles and walls that touch or may before the next look, and the fluid; with laws that stiffen
     /// contacts are taken to be as deep as then they may be. See assumed_contacts() and step_control.
-    time_step_limits limits() const { return find_limits_of(assumed_contacts()); }
+    time_step_limits limits() const;
     /// What limits() assumes of contacts.
     contact_assumption assumed_contacts() const { return time_step_ ? control_.assumed() : next_assumption(); }
     /// How often the limits of the time step were looked for, the first time included.
@@ -781,6 +784,24 @@ private:
     real max_displacement_ = 0; ///< upper bound of the path of every particle in the last step, m
     long long step_ = 0;
 };
+
+// Outside the class: else each file that includes this compiles them, `extern template` or not.
+template <class Model>
+template <bool WithEnergy>
+void simulation<Model>::advance() {
+    take_step<WithEnergy>();
+}
+
+template <class Model>
+double simulation<Model>::time_step() const {
+    resolve_time_step();
+    return *time_step_;
+}
+
+template <class Model>
+time_step_limits simulation<Model>::limits() const {
+    return find_limits_of(assumed_contacts());
+}
 
 /// \cond
 // What is no model: the first message is the only one, as what the program goes on to do is checked against another.
