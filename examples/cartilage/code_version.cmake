@@ -2,7 +2,8 @@
 #
 # cmake -D ROOT=... -D OUT=... -D BUILD=... -D DRAWING=... -P code_version.cmake: writes a header with a hash of
 # all that decides on a run's results: the library's headers, the program's sources, the compiler and its flags.
-# DRAWING: names of sources that only draw what was found. Wherever the sources lie, the hash is the same.
+# DRAWING: sources that only draw or choose, by their paths in examples/cartilage. Wherever the sources of the whole
+# repository lie, the hash is the same.
 
 cmake_minimum_required(VERSION 3.25)
 
@@ -12,7 +13,7 @@ list(APPEND sources ${own})
 list(SORT sources)
 set(text "${BUILD}\n")
 foreach(source IN LISTS sources)
-  get_filename_component(name "${source}" NAME)
+  string(REGEX REPLACE "^examples/cartilage/" "" name "${source}")
   if(name IN_LIST DRAWING)
     continue()
   endif()

@@ -8,14 +8,16 @@
 #include <lacuna/draw/picture.hpp>
 #include <lacuna/observe/stop_signal.hpp>
 
-#include "../command_line.hpp"
-#include "calibrate.hpp"
-#include "options.hpp"
-#include "output.hpp"
-#include "sensitivity.hpp"
-#include "simulate.hpp"
-#include "specimen.hpp"
-#include "study.hpp"
+#include "cartilage/calibrate/calibrate.hpp"
+#include "cartilage/calibrate/sensitivity.hpp"
+#include "cartilage/common/interruption.hpp"
+#include "cartilage/common/options.hpp"
+#include "cartilage/run/run_options.hpp"
+#include "cartilage/run/run_output.hpp"
+#include "cartilage/run/simulate.hpp"
+#include "cartilage/specimen/specimen.hpp"
+#include "cartilage/study_command.hpp"
+#include "command_line.hpp"
 
 namespace {
 
@@ -62,6 +64,12 @@ int run(cartilage::options const& o) {
     return result.interrupted ? interrupted() : done;
 }
 
+/// Commands that read their own options.
+constexpr cartilage::command_name further_commands[] = {
+    {"study", "Find the loads of Table 3 for many packings; 'study merge' puts parts together"},
+    {"sensitivity", "What each choice that the paper leaves open does to these loads"},
+    {"calibrate", "Fit chosen ones of the open choices to the paper's eleven numbers"}};
+
 int study(int argc, char** argv) {
     auto const o = cartilage::parse_study_command_line(argc, argv);
     if (!o) return done;
@@ -88,7 +96,7 @@ int obey(int argc, char** argv) {
     if (command == "study") return study(argc - 1, argv + 1);
     if (command == "sensitivity") return sensitivity(argc - 1, argv + 1);
     if (command == "calibrate") return calibrate(argc - 1, argv + 1);
-    auto const options = cartilage::parse_command_line(argc, argv);
+    auto const options = cartilage::parse_command_line(argc, argv, further_commands);
     if (!options) return done;
     return options->what == cartilage::command::run ? run(*options) : pack(*options);
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "summary.hpp"
 
-#include "../cartilage/json.hpp"
+#include "../cartilage/common/json_writer.hpp"
 
 namespace lacuna_run {
 

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "cartilage/calibration.hpp"
-#include "cartilage/comparison.hpp"
-#include "cartilage/presets.hpp"
+#include "cartilage/calibrate/calibration.hpp"
+#include "cartilage/calibrate/comparison.hpp"
+#include "cartilage/common/presets.hpp"
 
 using namespace cartilage;
 
@@ -48,7 +48,7 @@ TEST_CASE("choices read back what they write") {
     CHECK(text_of(preset_choices("lattice")) == "packing = lattice\n");
 
     // The file that the calibration has left, but for its first line, the misfit.
-    std::ifstream file(std::string(CARTILAGE_FOLDER) + "/calibrated/best.choices");
+    std::ifstream file(std::string(CARTILAGE_FOLDER) + "/data/calibrated/best.choices");
     std::string const best{std::istreambuf_iterator<char>(file), {}};
     REQUIRE(best.find('\n') != std::string::npos);
     CHECK(text_of(preset_choices("calibrated")) == best.substr(best.find('\n') + 1));
@@ -196,7 +196,7 @@ TEST_CASE("how far a set is from the paper") {
 
 TEST_CASE("whether the first layer failed first") {
     auto const run = [](double load, std::optional<double> first, std::optional<double> second) {
-        probe p;
+        load_run p;
         p.load_MPa = load;
         p.ended = "capacity";
         p.capacity_time = first;
@@ -205,9 +205,9 @@ TEST_CASE("whether the first layer failed first") {
     };
     std::vector<packing_result> all{packing(1, 40, 60, 70), packing(2, 40, 60, 70), packing(3, 40, 60, 70),
                                     packing(4, 40, 0, 70)};
-    all[0].probes = {run(60, 2e-9, 3e-9), run(70, 2e-9, 1e-9)}; // at its capacity load the first was first
-    all[1].probes = {run(60, 2e-9, 1e-9)};
-    all[2].probes = {run(60, 2e-9, std::nullopt)};
+    all[0].runs = {run(60, 2e-9, 3e-9), run(70, 2e-9, 1e-9)}; // at its capacity load the first was first
+    all[1].runs = {run(60, 2e-9, 1e-9)};
+    all[2].runs = {run(60, 2e-9, std::nullopt)};
     auto const counts = first_layers_of(all);
     REQUIRE(counts.size() == 1);
     CHECK(counts[0].first == 2);

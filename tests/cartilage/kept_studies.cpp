@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "cartilage/study_fronts.hpp"
-#include "cartilage/study_json.hpp"
-#include "cartilage/study_table.hpp"
+#include "cartilage/study/study_fronts.hpp"
+#include "cartilage/study/study_json.hpp"
+#include "cartilage/study/study_table.hpp"
 #include "synthetic_study.hpp"
 
 using namespace cartilage;
@@ -18,7 +18,7 @@ namespace {
 json small_study() {
     study_result study = synthetic_study(1);
     study.packings.resize(1);
-    study.packings[0].probes.resize(4);
+    study.packings[0].runs.resize(4);
     study.snapshots.resize(1);
     auto& shot = study.snapshots[0];
     shot.fronts.resize(3);

@@ -7,8 +7,8 @@
 #include <numbers>
 #include <string>
 
-#include "cartilage/ending.hpp"
-#include "cartilage/load_specimen.hpp"
+#include "cartilage/run/ending.hpp"
+#include "cartilage/run/load_specimen.hpp"
 
 using namespace cartilage;
 

@@ -6,8 +6,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "cartilage/html.hpp"
-#include "cartilage/study_report.hpp"
+#include "cartilage/report/html.hpp"
+#include "cartilage/report/study_report.hpp"
 #include "synthetic_study.hpp"
 
 namespace {

@@ -10,9 +10,9 @@
 #include <utility>
 #include <vector>
 
-#include "cartilage/particle_kinds.hpp"
-#include "cartilage/search.hpp"
-#include "cartilage/study_json.hpp"
+#include "cartilage/specimen/particle_kinds.hpp"
+#include "cartilage/study/search.hpp"
+#include "cartilage/study/study_json.hpp"
 
 using namespace cartilage;
 
@@ -21,7 +21,7 @@ namespace {
 constexpr double longest = 40e-9;       // s, of a made-up run
 constexpr double latest = 0.99 * longest; // s, when one may still come to an answer
 
-/// A packing of which all is known: the loads from which on each question is answered yes, and loads at which no run
+/// A packing of which all is known: the loads from which on each criterion is answered yes, and loads at which no run
 /// counts. At those loads a run comes to the answer in its last moment, at higher ones in inverse proportion to the load.
 /// Counts what it is asked.
 struct made_up {
@@ -39,14 +39,14 @@ struct made_up {
         return sum;
     }
 
-    probe operator()(double load, question q) {
+    load_run operator()(double load, criterion c) {
         ++calls;
-        probe p;
+        load_run p;
         p.load_MPa = load;
         double& done = simulated[load];
         std::optional<double> const times[] = {time_of_yes(first, load), time_of_yes(capacity, load),
                                                time_of_yes(complete, load)};
-        double const until = times[int(q)].value_or(longest);
+        double const until = times[int(c)].value_or(longest);
         // A run is continued, never begun anew.
         if (until <= done) throw std::logic_error("asked again");
         p.end_time = done = until;
@@ -56,20 +56,20 @@ struct made_up {
             p.ended = "invalid";
             return p;
         }
-        auto const so_far = [&](question which) {
+        auto const so_far = [&](criterion which) {
             auto const& t = times[int(which)];
             return t && *t <= until ? t : std::nullopt;
         };
-        p.first_crack_time = so_far(question::first_crack);
-        p.capacity_time = so_far(question::capacity);
-        p.complete_time = so_far(question::complete);
-        p.ended = answers(p, q) ? name_of(q) : "limit";
+        p.first_crack_time = so_far(criterion::first_crack);
+        p.capacity_time = so_far(criterion::capacity);
+        p.complete_time = so_far(criterion::complete);
+        p.ended = meets(p, c) ? name_of(c) : "limit";
         return p;
     }
 };
 
 packing_result search(made_up& packing, load_range const& range = {}) {
-    return find_thresholds(range, [&](double load, question q) { return packing(load, q); });
+    return find_thresholds(range, [&](double load, criterion c) { return packing(load, c); });
 }
 
 bool within_a_step(double found, double truth) { return found >= truth && found < truth * 1.021; }
@@ -141,7 +141,7 @@ TEST_CASE("A good guess and a search that weighs the time of its runs save most 
     CHECK(r.found.no_capacity == "above 1000 MPa");
     CHECK(r.found.no_complete == "above 1000 MPa");
     int above_first = 0;
-    for (probe const& p : r.probes) above_first += p.whole() && p.first_crack_time.has_value();
+    for (load_run const& p : r.runs) above_first += p.whole() && p.first_crack_time.has_value();
     CHECK(above_first == 1);
 }
 
@@ -192,27 +192,27 @@ TEST_CASE("Runs that do not count are passed by") {
     CHECK_FALSE(h.found.capacity_MPa);
     CHECK(h.found.no_capacity.find("do not count") != std::string::npos);
     int invalid = 0;
-    for (probe const& p : h.probes) invalid += p.invalid.has_value();
+    for (load_run const& p : h.runs) invalid += p.invalid.has_value();
     CHECK(invalid > 0);
 }
 
 TEST_CASE("The first crack is never above the other loads, whatever the answers") {
     // Answers without any order at all, from the digits of the load.
     for (std::uint64_t salt = 1; salt < 200; ++salt) {
-        std::map<double, probe> runs;
-        auto const r = find_thresholds({}, [&](double load, question q) {
+        std::map<double, load_run> runs;
+        auto const r = find_thresholds({}, [&](double load, criterion c) {
             auto const noise = std::uint64_t(load * 1000) * 0x9e3779b97f4a7c15u * salt;
             int const reached = int((noise >> 40) % 4);
-            probe p;
+            load_run p;
             p.load_MPa = load;
             if (reached > 0) p.first_crack_time = 1e-9;
             if (reached > 1) p.capacity_time = 2e-9;
             if (reached > 2) p.complete_time = 3e-9;
-            p.ended = answers(p, q) ? name_of(q) : "limit";
-            p.end_time = answer_time(p, q).value_or(longest);
+            p.ended = meets(p, c) ? name_of(c) : "limit";
+            p.end_time = time_met(p, c).value_or(longest);
             if (!p.whole()) {
-                if (q < question::complete) p.complete_time.reset();
-                if (q < question::capacity) p.capacity_time.reset();
+                if (c < criterion::complete) p.complete_time.reset();
+                if (c < criterion::capacity) p.capacity_time.reset();
             }
             return p;
         });
@@ -223,19 +223,19 @@ TEST_CASE("The first crack is never above the other loads, whatever the answers"
         CHECK(first <= complete);
         // Each is the upper end of two neighbours that answer no and yes.
         auto const at = [&](double load) {
-            return std::find_if(r.probes.begin(), r.probes.end(), [&](probe const& p) { return p.load_MPa == load; });
+            return std::find_if(r.runs.begin(), r.runs.end(), [&](load_run const& p) { return p.load_MPa == load; });
         };
-        for (auto const& [load, q] : {std::pair(r.found.first_crack_MPa, question::first_crack),
-                                      std::pair(r.found.capacity_MPa, question::capacity),
-                                      std::pair(r.found.complete_MPa, question::complete)}) {
+        for (auto const& [load, c] : {std::pair(r.found.first_crack_MPa, criterion::first_crack),
+                                      std::pair(r.found.capacity_MPa, criterion::capacity),
+                                      std::pair(r.found.complete_MPa, criterion::complete)}) {
             if (!load) continue;
             auto const yes = at(*load), no = at(load_range{}.load(load_range{}.place(*load) - 1));
-            REQUIRE(yes != r.probes.end());
-            REQUIRE(no != r.probes.end());
-            CHECK(answers(*yes, q));
-            CHECK((no->whole() && !answers(*no, q)));
+            REQUIRE(yes != r.runs.end());
+            REQUIRE(no != r.runs.end());
+            CHECK(meets(*yes, c));
+            CHECK((no->whole() && !meets(*no, c)));
         }
-        for (std::size_t k = 1; k < r.probes.size(); ++k) CHECK(r.probes[k - 1].load_MPa < r.probes[k].load_MPa);
+        for (std::size_t k = 1; k < r.runs.size(); ++k) CHECK(r.runs[k - 1].load_MPa < r.runs[k].load_MPa);
     }
 }
 
@@ -252,7 +252,7 @@ TEST_CASE("A study as text is the same study, bit for bit") {
     r.seed = UINT64_MAX;
     r.found.first_crack_MPa = 1.0 / 3;
     r.found.no_capacity = "above 1000 MPa";
-    probe p;
+    load_run p;
     p.load_MPa = 45.1;
     p.end_time = 4e-8 / 3;
     p.ended = "capacity";
@@ -261,10 +261,10 @@ TEST_CASE("A study as text is the same study, bit for bit") {
     p.invalid = "why \\ not";
     p.cracks = {{1e-9 / 3, 1e-5 / 7, 2e-4 / 9, true, 3}, {2e-9, 0, 0, false, -1}};
     p.layers = {{"deep", 2, 40, 7, 3e-9 / 11}, {"deep", 3, 1, 0, std::nullopt}};
-    probe sound;
+    load_run sound;
     sound.load_MPa = 100;
     sound.ended = "limit";
-    r.probes = {p, sound};
+    r.runs = {p, sound};
     s.packings = {r};
     snapshot shot;
     shot.figure = "11";
@@ -291,12 +291,12 @@ TEST_CASE("A study as text is the same study, bit for bit") {
     CHECK(back.step_share == 0.8);
     CHECK(back.packings[0].seed == UINT64_MAX);
     CHECK(back.packings[0].found.first_crack_MPa == 1.0 / 3);
-    CHECK(back.packings[0].probes[0].first_crack_time == p.first_crack_time);
-    CHECK(back.packings[0].probes[0].cracks[0].x == 1e-5 / 7);
-    CHECK(back.packings[0].probes[0].cracks[0].shear);
-    CHECK(back.packings[0].probes[0].layers[0].half_broken_time == 3e-9 / 11);
-    CHECK(back.packings[0].probes[0].invalid == "why \\ not");
-    CHECK_FALSE(back.packings[0].probes[1].invalid);
+    CHECK(back.packings[0].runs[0].first_crack_time == p.first_crack_time);
+    CHECK(back.packings[0].runs[0].cracks[0].x == 1e-5 / 7);
+    CHECK(back.packings[0].runs[0].cracks[0].shear);
+    CHECK(back.packings[0].runs[0].layers[0].half_broken_time == 3e-9 / 11);
+    CHECK(back.packings[0].runs[0].invalid == "why \\ not");
+    CHECK_FALSE(back.packings[0].runs[1].invalid);
     CHECK(back.snapshots[0].fronts[0].stress[0] == -1e6 / 3);
     CHECK(back.snapshots[0].damage.top == 3e-4 / 7);
     CHECK(back.snapshots[0].damage.cracks[0].mode == lacuna::scene::break_mode::shear);

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "cartilage/study_statistics.hpp"
+#include "cartilage/study/study_statistics.hpp"
 
 using cartilage::median;
 using cartilage::median_interval;

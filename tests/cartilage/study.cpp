@@ -6,16 +6,16 @@
 #include <stdexcept>
 #include <utility>
 
-#include "cartilage/study_fronts.hpp"
-#include "cartilage/study_series.hpp"
-#include "cartilage/study_table.hpp"
+#include "cartilage/study/study_fronts.hpp"
+#include "cartilage/study/study_series.hpp"
+#include "cartilage/study/study_table.hpp"
 
 using namespace cartilage;
 
 namespace {
 
-probe run_at(double load, char const* ended, std::optional<double> first_crack = {}, double broken = 0) {
-    probe p;
+load_run run_at(double load, char const* ended, std::optional<double> first_crack = {}, double broken = 0) {
+    load_run p;
     p.load_MPa = load;
     p.ended = ended;
     p.end_time = 10e-9;
@@ -24,11 +24,11 @@ probe run_at(double load, char const* ended, std::optional<double> first_crack =
     return p;
 }
 
-packing_result packing_of(std::uint64_t seed, std::vector<probe> probes, std::optional<double> first = {}) {
+packing_result packing_of(std::uint64_t seed, std::vector<load_run> runs, std::optional<double> first = {}) {
     packing_result r;
     r.seed = seed;
     r.found.first_crack_MPa = first;
-    r.probes = std::move(probes);
+    r.runs = std::move(runs);
     return r;
 }
 
@@ -42,7 +42,7 @@ std::vector<packing_result const*> pointers(std::vector<packing_result> const& a
 
 TEST_CASE("table 3 counts packings that hold, that failed at once, and that nothing decides") {
     study_result study;
-    probe unsound = run_at(1000, "invalid");
+    load_run unsound = run_at(1000, "invalid");
     unsound.invalid = "energy";
     study.packings = {packing_of(1, {}, 40),
                       packing_of(2, {}, 50),
@@ -88,7 +88,7 @@ TEST_CASE("the paper's loads are those of its Table 3 and of the text beside Fig
 }
 
 TEST_CASE("damage against load: whole runs that count, and their median between loads") {
-    probe unsound = run_at(300, "duration", 1e-9, 0.9);
+    load_run unsound = run_at(300, "duration", 1e-9, 0.9);
     unsound.invalid = "energy";
     std::vector<packing_result> const packings{
         packing_of(1, {run_at(400, "limit", 1e-9, 0.4), run_at(100, "quiet", {}, 0.0),
@@ -125,7 +125,7 @@ TEST_CASE("first cracks: elastic and later ones, slope within a packing") {
 }
 
 TEST_CASE("the telling run is the one at capacity, else the one with most cracks") {
-    probe few = run_at(50, "capacity", 1e-9), many = run_at(80, "quiet", 1e-9), unsound = run_at(90, "quiet", 1e-9);
+    load_run few = run_at(50, "capacity", 1e-9), many = run_at(80, "quiet", 1e-9), unsound = run_at(90, "quiet", 1e-9);
     few.cracks.resize(2);
     many.cracks.resize(5);
     unsound.cracks.resize(9);
@@ -139,7 +139,7 @@ TEST_CASE("the telling run is the one at capacity, else the one with most cracks
 
 TEST_CASE("layers in the order in which they lose half of their bonds") {
     auto const with = [](std::optional<double> a, std::optional<double> b) {
-        probe p = run_at(50, "complete", 1e-9);
+        load_run p = run_at(50, "complete", 1e-9);
         p.layers = {{"surface", 0, 10, 5, a}, {"surface", 1, 10, 5, b}};
         return p;
     };

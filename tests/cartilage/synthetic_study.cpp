@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "synthetic_study.hpp"
 
-#include "cartilage/particle_kinds.hpp"
+#include "cartilage/specimen/particle_kinds.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,9 +13,9 @@ using namespace cartilage;
 
 double uniform(std::mt19937_64& random) { return double(random() >> 11) * 0x1p-53; }
 
-probe make_probe(std::mt19937_64& random, lacuna::cartilage_zone zone, double load, thresholds const& found,
+load_run make_load_run(std::mt19937_64& random, lacuna::cartilage_zone zone, double load, thresholds const& found,
                  char const* ended) {
-    probe p;
+    load_run p;
     p.load_MPa = load;
     p.ended = ended;
     p.end_time = 12e-9;
@@ -31,7 +31,7 @@ probe make_probe(std::mt19937_64& random, lacuna::cartilage_zone zone, double lo
     p.first_layer_fraction = std::min(1.0, 0.1 + 0.4 * std::log(load / first));
     int const count = int(300 * p.broken_fraction);
     for (int k = 0; k < count; ++k) {
-        study_crack c;
+        load_run::crack c;
         c.time = *p.first_crack_time + (p.end_time - *p.first_crack_time) * k / count;
         c.x = 120e-6 * (0.2 + 0.6 * uniform(random));
         c.y = 300e-6 * (1 - 0.6 * uniform(random) * uniform(random));
@@ -41,7 +41,7 @@ probe make_probe(std::mt19937_64& random, lacuna::cartilage_zone zone, double lo
     }
     auto const add_layers = [&](char const* name, int layers, double from) {
         for (int k = 0; k < layers; ++k) {
-            study_layer layer{name, k, 60, 0, {}};
+            load_run::layer_damage layer{name, k, 60, 0, {}};
             double const wait = 1e-9 * (from + 1.1 * k + 2 * uniform(random));
             if (*p.first_crack_time + wait < p.end_time) {
                 layer.half_broken_time = *p.first_crack_time + wait;
@@ -65,7 +65,7 @@ snapshot make_snapshot(std::mt19937_64& random, lacuna::cartilage_zone zone, cha
     snapshot s;
     s.zone = zone;
     s.figure = figure;
-    s.run = make_probe(random, zone, load, {0.8 * load, load, 2 * load, "", "", ""}, "duration");
+    s.run = make_load_run(random, zone, load, {0.8 * load, load, 2 * load, "", "", ""}, "duration");
     s.damage.right = 120e-6;
     s.damage.top = 300e-6;
     s.damage.title = "Synthetic";
@@ -78,7 +78,7 @@ snapshot make_snapshot(std::mt19937_64& random, lacuna::cartilage_zone zone, cha
             s.damage.particles.push_back({at, 1.9e-6, j % 4 == 0 ? cartilage::fibre_particle : cartilage::free_particle});
             s.damage.pores.push_back({at + lacuna::vec<double, 2>{2e-6, 2e-6}, 1e6 * uniform(random)});
         }
-    for (study_crack const& c : s.run.cracks) s.damage.cracks.push_back({{c.x, c.y}, {1, 0}, {}});
+    for (load_run::crack const& c : s.run.cracks) s.damage.cracks.push_back({{c.x, c.y}, {1, 0}, {}});
     // A front at 120 µm/ns, and a pressure of a hundredth of the stress behind it at half that speed.
     for (int step = 1; step <= 60; ++step) {
         front_profile f;
@@ -116,10 +116,10 @@ cartilage::study_result synthetic_study(int seeds) {
             if (!holds) packing.found.complete_MPa = 5 * first;
             for (double const factor : {0.7, 0.95, 1.0, 1.3, 1.8, 3.0, 5.0, 9.0}) {
                 char const* ended = factor == 1.0 ? "first_crack" : factor == 1.8 ? "capacity" : "duration";
-                packing.probes.push_back(make_probe(random, zone, factor * first, packing.found, ended));
+                packing.runs.push_back(make_load_run(random, zone, factor * first, packing.found, ended));
             }
-            packing.probes.push_back(make_probe(random, zone, study.highest_MPa, packing.found, "duration"));
-            if (seed == 2) packing.probes[5].invalid = "the energy ledger is open by 1.3 % <synthetic>";
+            packing.runs.push_back(make_load_run(random, zone, study.highest_MPa, packing.found, "duration"));
+            if (seed == 2) packing.runs[5].invalid = "the energy ledger is open by 1.3 % <synthetic>";
             study.packings.push_back(packing);
         }
     study.snapshots = {make_snapshot(random, cartilage_zone::surface, "10", 50),

@@ -2,7 +2,7 @@
 #include "catch.hpp"
 #include "draw/drawn.hpp"
 
-#include "cartilage/tornado.hpp"
+#include "cartilage/report/tornado.hpp"
 
 #include <limits>
 #include <vector>

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <exception>
 
-#include "cartilage/study_report.hpp"
+#include "cartilage/report/study_report.hpp"
 #include "synthetic_study.hpp"
 
 int main(int argc, char** argv) {

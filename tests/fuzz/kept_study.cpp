@@ -6,16 +6,16 @@
 #include <string>
 #include <string_view>
 
-#include "cartilage/choices.hpp"
-#include "cartilage/study_fronts.hpp"
-#include "cartilage/study_json.hpp"
+#include "cartilage/common/choices.hpp"
+#include "cartilage/study/study_fronts.hpp"
+#include "cartilage/study/study_json.hpp"
 #include "cartilage/synthetic_study.hpp"
 #include "fuzz/corpus.hpp"
 
 extern "C" int LLVMFuzzerInitialize(int* argc, char*** argv) {
     cartilage::study_result study = synthetic_study(1);
     study.packings.resize(1);
-    study.packings[0].probes.resize(3);
+    study.packings[0].runs.resize(3);
     study.snapshots.resize(1);
     study.snapshots[0].fronts.resize(2);
     study.snapshots[0].damage.particles.resize(2);

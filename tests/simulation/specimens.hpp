@@ -3,7 +3,7 @@
 
 #include "cartilage/specimen/cartilage_specimen.hpp"
 
-#include "../../examples/cartilage/load_specimen.hpp"
+#include "cartilage/run/load_specimen.hpp"
 
 /// \file
 /// The coupled cartilage run on a small specimen, for tests.

@@ -26,6 +26,10 @@ set(pores/network_MAY pores/mesh)
 set(pores/flow_MAY pores/mesh pores/network)
 set(pores/remesh_MAY pores/mesh pores/network)
 
+# Folders of a program, from the ground up: a file includes its own folder and those before it. Files beside the folders
+# may include all.
+set(PROGRAM_FOLDERS cartilage/common cartilage/specimen cartilage/run cartilage/study cartilage/report cartilage/calibrate)
+
 # Third-party headers and the rooms that may include them.
 set(THIRD_PARTY eigen nanoflann qhull cairo cereal zlib intrinsics programs)
 set(eigen_HEADERS "^(unsupported/)?Eigen/")
@@ -155,6 +159,26 @@ foreach(program IN LISTS programs)
   if(text MATCHES "${OF_LOCALES}")
     problem("${program} numbers" "${program}: '${CMAKE_MATCH_0}' goes by the locale, core/text.hpp reads and writes numbers")
   endif()
+  if(NOT program MATCHES "^examples/(cartilage/[^/]+)/")
+    continue()
+  endif()
+  set(folder "${CMAKE_MATCH_1}")
+  list(FIND PROGRAM_FOLDERS "${folder}" floor)
+  if(floor EQUAL -1)
+    list(APPEND problems "${program}: there is no folder ${folder}/")
+  endif()
+  file(STRINGS "${ROOT}/${program}" includes REGEX "^[ \t]*#[ \t]*include[ \t]*\".*/")
+  foreach(line IN LISTS includes)
+    if(NOT line MATCHES "\"(cartilage/[^/]+)/[^/]+\"")
+      list(APPEND problems "${program}: '${line}' must be a header of a folder of cartilage/, from examples/")
+      continue()
+    endif()
+    set(other "${CMAKE_MATCH_1}")
+    list(FIND PROGRAM_FOLDERS "${other}" other_floor)
+    if(other_floor EQUAL -1 OR other_floor GREATER floor)
+      problem("${program} -> ${other}" "${program}: ${folder}/ may not include ${other}/")
+    endif()
+  endforeach()
 endforeach()
 
 # In rounds: a header is settled when all headers that it includes are. Headers that never settle form a ring.

@@ -5,10 +5,10 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "specimen_fibres.hpp"
-#include "specimen_lattice.hpp"
-#include "specimen_links.hpp"
-#include "specimen_types.hpp"
+#include "cartilage/specimen/specimen_fibres.hpp"
+#include "cartilage/specimen/specimen_lattice.hpp"
+#include "cartilage/specimen/specimen_links.hpp"
+#include "cartilage/specimen/specimen_types.hpp"
 #include <lacuna/packings/dense.hpp>
 #include <lacuna/packings/random_packing.hpp>
 

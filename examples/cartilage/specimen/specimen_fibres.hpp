@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "specimen_types.hpp"
+#include "cartilage/specimen/specimen_types.hpp"
 #include <lacuna/packings/dense.hpp>
 #include <lacuna/particles/packing_grid.hpp>
 

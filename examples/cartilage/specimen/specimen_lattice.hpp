@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "specimen_types.hpp"
+#include "cartilage/specimen/specimen_types.hpp"
 
 /// \file
 /// The `lattice` cartilage specimen: equal discs on hexagonal lattices, symmetric about the centre line.

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "specimen_types.hpp"
+#include "cartilage/specimen/specimen_types.hpp"
 #include <lacuna/particles/packing_grid.hpp>
 #include <lacuna/particles/touching.hpp>
 

@@ -3,17 +3,15 @@
 
 #include <cmath>
 #include <cstdint>
-#include <string_view>
 #include <vector>
 
 #include <lacuna/core/error.hpp>
 #include <lacuna/packings/fibres.hpp>
 #include <lacuna/particles/packing.hpp>
 
-namespace lacuna {
+#include "cartilage/common/zone.hpp"
 
-/// The zones of cartilage (Hong, Evans and Mente, Fig. 8 and 9).
-enum class cartilage_zone { surface, middle, deep, whole };
+namespace lacuna {
 
 /// How a specimen is built: `literal` as the paper says, radii and free particles at random; `lattice` with equal
 /// radii on hexagonal lattices, without any chance, symmetric left to right.
@@ -21,22 +19,6 @@ enum class specimen_preset { literal, lattice };
 
 /// Index of a particle's material in a cartilage specimen (the columns of Table 1).
 enum cartilage_material : int { free_matrix = 0, surface_collagen = 1, middle_collagen = 2, deep_collagen = 3 };
-
-constexpr std::string_view to_string(cartilage_zone zone) noexcept {
-    switch (zone) {
-    case cartilage_zone::surface: return "surface";
-    case cartilage_zone::middle: return "middle";
-    case cartilage_zone::deep: return "deep";
-    default: return "whole";
-    }
-}
-
-/// The zone of that name. \throws std::invalid_argument when there is none
-inline cartilage_zone parse_cartilage_zone(std::string_view name) {
-    for (auto zone : {cartilage_zone::surface, cartilage_zone::middle, cartilage_zone::deep, cartilage_zone::whole})
-        if (name == to_string(zone)) return zone;
-    refuse("zone", name, "surface, middle, deep or whole");
-}
 
 /// What a cartilage specimen is made of. Lengths in m; "diameters" are mean diameters, r_min + r_max.
 struct cartilage_specimen_parameters {

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cartilage/calibrate/calibrate.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include <lacuna/core/error.hpp>
+#include <lacuna/observe/stop_signal.hpp>
+
+#include "cartilage/calibrate/calibrate_report.hpp"
+#include "cartilage/common/interruption.hpp"
+#include "cartilage/common/option_parsing.hpp"
+#include "cartilage/common/unfinished_mark.hpp"
+#include "cartilage/specimen/specimen.hpp"
+#include "cartilage/study/study.hpp"
+
+namespace cartilage {
+
+namespace {
+
+/// Scale of all strengths, length of the run, what holds the free particles, what spreads the load.
+constexpr char const* free_by_default = "thickness,duration,matrix_links,wall_distance,load";
+
+/// Names of the files that a calibration leaves.
+std::vector<std::string> calibration_results() { return {"calibration.html", "calibration.csv", "calibration.json", "best.choices"}; }
+
+} // namespace
+
+std::optional<calibrate_options> parse_calibrate_command_line(int argc, char const* const* argv) {
+    calibrate_options o;
+    model_arguments model;
+    pool_arguments pool;
+    std::string names = free_by_default, evaluations = "40", resolution, highest, out = "cartilage-calibration";
+    CLI::App app("One set of the choices that the paper leaves open, for all zones, as near to its eleven numbers as can "
+                 "be found: medians over the same packings for every set.\nResults go into a directory: "
+                 "calibration.html, calibration.csv, calibration.json, best.choices. The same command goes on where it "
+                 "was stopped.",
+                 "cartilage calibrate");
+    app.failure_message(CLI::FailureMessage::simple);
+    app.get_formatter()->column_width(28);
+    app.add_option("--free", names, std::string("choices that may change (") + free_by_default + ")")->type_name("LIST");
+    app.add_option("--evaluations", evaluations, "sets to try at most (40)")->type_name("N");
+    add_pool_options(app, pool);
+    app.add_option("--resolution", resolution, "of the loads (0.05)")->type_name("SHARE");
+    app.add_option("--highest", highest, "load to try (300)")->type_name("MPA");
+    add_model_options(app, model);
+    add_run_options(app, model);
+    app.add_option("--out", out, "directory for the results (cartilage-calibration)")->type_name("DIR");
+    app.add_flag("--force", o.study.force, "replace the results that are in DIR");
+    app.add_flag("--quiet", o.study.quiet, "no progress, no table");
+    if (!parse_arguments(app, argc, argv)) return std::nullopt;
+    if (!can_calibrate()) throw usage_error("calibrate: the program was built without NLopt, which this command needs");
+    o.study.out = out;
+    o.study.model = understand_model(model);
+    o.study.model.what = command::run;
+    if (pool.seeds.empty() && !pool.quick) pool.seeds = "6";
+    understand_pool(pool, o.study);
+    if (!pool.quick) o.study.loads.resolution = 0.05;
+    char const* const rule = "a number from 0.002 to 1";
+    if (!resolution.empty()) o.study.loads.resolution = positive_number("--resolution", resolution, rule);
+    if (!(o.study.loads.resolution >= 0.002 && o.study.loads.resolution <= 1)) refuse("--resolution", resolution, rule);
+    o.study.loads.highest_MPa = 300;
+    if (!highest.empty()) o.study.loads.highest_MPa = positive_number("--highest", highest, "a number of MPa");
+    if (!(o.study.loads.highest_MPa >= 100 && o.study.loads.highest_MPa <= 1e4))
+        refuse("--highest", highest, "a number of MPa from 100 to 10000");
+    o.evaluations = whole_number<std::size_t>("--evaluations", evaluations, 1, 100000, "a whole number from 1 to 100000");
+    for (std::string const& name : parts_of(names, ',')) {
+        try {
+            choice_field const& f = find_choice(name);
+            if (f.stated) lacuna::refuse("choice", name, "one that the paper leaves open");
+            if (std::count(o.free.begin(), o.free.end(), &f) != 0) lacuna::refuse("choice", name, "given once");
+            if (o.study.model.dry && f.fluid) lacuna::refuse("choice", name, "one with an effect in a dry run");
+            o.free.push_back(&f);
+        } catch (std::invalid_argument const& bad) {
+            throw usage_error(std::string("--free: ") + bad.what());
+        }
+    }
+    for (auto zone : o.study.zones) {
+        options one = o.study.model;
+        one.zone = zone;
+        validate_specimen(one);
+    }
+    return o;
+}
+
+int calibrate(calibrate_options const& o) {
+    lacuna::run_directory out(o.study.out, "--out", calibration_results(),
+                              unfinished_mark::earlier(o.study.out, "calibrate", o.study.force));
+    unfinished_mark const mark(out, "calibrate");
+    auto base = requests_of(o.study);
+    for (packing_request& r : base)
+        // Loads of the paper are where a good set has its answers.
+        for (threshold const what : all_thresholds)
+            r.loads.first_guess[std::size_t(what)] =
+                paper_load(r.model.zone, what).value_or(1.2 * *paper_load(r.model.zone, threshold::capacity));
+    std::vector<calibrated_set> sets;
+    auto const misfit = [&](choices const& open) {
+        calibrated_set set;
+        set.open = open;
+        auto requests = base;
+        for (packing_request& r : requests) r.model = with_choices(r.model, open);
+        pool_options how;
+        how.jobs = o.study.jobs;
+        how.cache = o.study.cache;
+        how.progress = o.study.quiet ? nullptr : stderr;
+        try {
+            validate(open);
+            auto const packings = run_packings(requests, how);
+            set.targets = targets_of(packings);
+            set.first_layers = first_layers_of(packings);
+            set.misfit = misfit_of(set.targets);
+        } catch (interruption const&) {
+            mark.stopped_by(lacuna::stop_signal());
+            throw;
+        } catch (std::invalid_argument const& bad) {
+            set.misfit = std::numeric_limits<double>::quiet_NaN();
+            set.why = bad.what();
+        }
+        sets.push_back(set);
+        if (!o.study.quiet) print_set(stderr, sets.size(), o.evaluations, set, o.free);
+        return set.misfit;
+    };
+    calibration_request request;
+    request.start = o.study.model.open;
+    request.free = o.free;
+    request.evaluations = o.evaluations;
+    auto const tried = calibrate(request, misfit);
+    mark.begin_results();
+    write_calibration(o.study.out, o, sets, best_of(tried));
+    mark.end();
+    if (!o.study.quiet) {
+        print_best(stdout, sets[best_of(tried)]);
+        for (char const* name : {"calibration.html", "calibration.csv", "calibration.json", "best.choices"})
+            std::printf("%s\n", out.file(name).c_str());
+    }
+    return 0;
+}
+
+} // namespace cartilage

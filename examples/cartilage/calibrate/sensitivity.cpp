@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cartilage/calibrate/sensitivity.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <stdexcept>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include <lacuna/core/error.hpp>
+#include <lacuna/core/whole_file.hpp>
+#include <lacuna/observe/stop_signal.hpp>
+
+#include "cartilage/calibrate/sensitivity_report.hpp"
+#include "cartilage/common/interruption.hpp"
+#include "cartilage/common/option_parsing.hpp"
+#include "cartilage/common/unfinished_mark.hpp"
+#include "cartilage/specimen/specimen.hpp"
+#include "cartilage/study/study.hpp"
+
+namespace cartilage {
+
+namespace {
+
+/// Without effect in any zone that is studied, or in a dry run.
+bool is_idle(choice_field const& f, study_options const& o) {
+    bool const whole = std::count(o.zones.begin(), o.zones.end(), lacuna::cartilage_zone::whole) != 0;
+    bool const only_whole = f.name == "deep_fraction" || f.name == "surface_fraction";
+    return (o.model.dry && f.fluid) || (only_whole && !whole);
+}
+
+std::vector<variation> variations_of(sensitivity_options const& o) {
+    std::vector<variation> all;
+    std::vector<choice_field const*> fields = o.choices;
+    if (fields.empty())
+        for (choice_field const& f : choice_fields()) fields.push_back(&f);
+    for (choice_field const* f : fields) {
+        if (is_idle(*f, o.study)) continue;
+        double const base = f->get(o.study.model.open), plain = f->get(choices{});
+        std::vector<double> values = f->trials;
+        if (plain != base) values.push_back(plain);
+        std::sort(values.begin(), values.end());
+        for (double const value : values) {
+            if (value == base) continue;
+            choices changed = o.study.model.open;
+            f->set(changed, value);
+            try {
+                validate(changed);
+            } catch (std::invalid_argument const&) {
+                continue; // not with this base
+            }
+            all.push_back({f, value, {}});
+        }
+    }
+    return all;
+}
+
+/// Names of the files that a sensitivity study leaves.
+std::vector<std::string> sensitivity_results() {
+    std::vector<std::string> names{"sensitivity.csv", "sensitivity.html"};
+    for (auto const zone : all_zones)
+        for (threshold const what : all_thresholds)
+            for (char const* ending : {".png", ".svg"}) names.push_back(tornado_stem(zone, what) + ending);
+    return names;
+}
+
+} // namespace
+
+std::optional<sensitivity_options> parse_sensitivity_command_line(int argc, char const* const* argv) {
+    sensitivity_options o;
+    model_arguments model;
+    pool_arguments pool;
+    std::string only, out = "cartilage-sensitivity";
+    CLI::App app("What each choice that the paper leaves open does to the loads of Table 3: one at a time, on the same "
+                 "packings.\nResults go into a directory: sensitivity.csv, sensitivity.html, a tornado plot for each "
+                 "zone and load.",
+                 "cartilage sensitivity");
+    app.failure_message(CLI::FailureMessage::simple);
+    app.get_formatter()->column_width(28);
+    add_pool_options(app, pool);
+    app.add_option("--only", only, "choices to vary (all)")->type_name("LIST");
+    add_model_options(app, model);
+    add_run_options(app, model);
+    app.add_option("--out", out, "directory for the results (cartilage-sensitivity)")->type_name("DIR");
+    app.add_flag("--force", o.study.force, "replace the results that are in DIR");
+    app.add_flag("--quiet", o.study.quiet, "no progress, no table");
+    if (!parse_arguments(app, argc, argv)) return std::nullopt;
+    o.study.out = out;
+    o.study.model = understand_model(model);
+    o.study.model.what = command::run;
+    if (pool.seeds.empty() && !pool.quick) pool.seeds = "6";
+    understand_pool(pool, o.study);
+    for (std::string const& name : parts_of(only, ',')) {
+        if (only.empty()) break;
+        try {
+            o.choices.push_back(&find_choice(name));
+        } catch (std::invalid_argument const& bad) {
+            throw usage_error(std::string("--only: ") + bad.what());
+        }
+    }
+    for (auto zone : o.study.zones) {
+        options one = o.study.model;
+        one.zone = zone;
+        validate_specimen(one);
+    }
+    return o;
+}
+
+int sensitivity(sensitivity_options const& o) {
+    lacuna::run_directory out(o.study.out, "--out", sensitivity_results(),
+                              unfinished_mark::earlier(o.study.out, "sensitivity", o.study.force));
+    auto variations = variations_of(o);
+    if (variations.empty()) throw usage_error("--only: nothing to vary from this base");
+    auto const base = requests_of(o.study);
+    std::vector<packing_request> requests = base;
+    for (variation const& v : variations)
+        for (packing_request r : base) {
+            choices changed = r.model.open;
+            v.field->set(changed, v.value);
+            r.model = with_choices(r.model, changed);
+            requests.push_back(std::move(r));
+        }
+    pool_options how;
+    how.jobs = o.study.jobs;
+    how.cache = o.study.cache;
+    how.progress = o.study.quiet ? nullptr : stderr;
+    unfinished_mark const mark(out, "sensitivity");
+    std::vector<packing_result> results;
+    try {
+        results = run_packings(requests, how);
+    } catch (interruption const&) {
+        mark.stopped_by(lacuna::stop_signal());
+        throw;
+    }
+    auto const group = [&](std::size_t k) {
+        auto const first = results.begin() + std::ptrdiff_t(k * base.size());
+        return std::vector<packing_result>(first, first + std::ptrdiff_t(base.size()));
+    };
+    std::vector<packing_result> const plain = group(0);
+    for (std::size_t k = 0; k < variations.size(); ++k) variations[k].changes = compare(plain, group(k + 1));
+    mark.begin_results();
+    write_sensitivity(o.study.out, o.study, plain, variations);
+    mark.end();
+    if (!o.study.quiet) {
+        print_sensitivity(stdout, variations);
+        std::printf("%s\n%s\n", out.file("sensitivity.csv").c_str(), out.file("sensitivity.html").c_str());
+    }
+    return 0;
+}
+
+} // namespace cartilage

@@ -1,5 +1,0 @@
-// SPDX-License-Identifier: BSD-3-Clause
-#include "load_specimen.hpp"
-
-CARTILAGE_INSTANTIATE(dry_model, )
-CARTILAGE_INSTANTIATE(wet_model, )

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "cartilage/common/options.hpp"
+#include "cartilage/run/results.hpp"
+
+namespace cartilage {
+
+/// Names of the files that `run` and `pack` leave, for lacuna::run_directory; `#` is a number.
+std::vector<std::string> run_results();
+
+/// \name Writers; each file appears whole or not at all. \throws std::runtime_error
+/// \{
+void write_summary(std::string const& path, options const& o, run_result const& r);
+void write_statistics(std::string const& path, options const& o, specimen_report const& s);
+/// \}
+
+/// \name cracks.csv, which grows while a run goes on
+/// \{
+std::string crack_heading();
+std::string crack_line(crack_record const& c);
+/// \}
+
+/// \name The short tables for a person
+/// \{
+void print_result(std::FILE* out, options const& o, run_result const& r);
+void print_statistics(std::FILE* out, options const& o, specimen_report const& s);
+/// \}
+
+} // namespace cartilage

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include <lacuna/draw/picture_scene.hpp>
+#include <lacuna/pores/network/pore_network.hpp>
+
+#include "cartilage/run/results.hpp"
+
+namespace cartilage {
+
+/// The pores of a run as they stand; none in a dry one.
+template <class Simulation>
+std::vector<lacuna::scene::pore> pores_of([[maybe_unused]] Simulation const& sim) {
+    std::vector<lacuna::scene::pore> pores;
+    if constexpr (requires { sim.flow().network(); }) {
+        auto const& network = sim.flow().network();
+        for (std::size_t p = 0; p < network.pores(); ++p)
+            pores.push_back({lacuna::pore_middle(network, p, sim.particles().positions()), network.pressure[p]});
+    }
+    return pores;
+}
+
+/// The damage of a run as it stands.
+template <class Simulation>
+lacuna::scene picture_of(Simulation const& sim, specimen const& s, options const& o,
+                         std::span<crack_record const> cracks) {
+    std::vector<lacuna::vec<double, 2>> position(sim.size());
+    for (std::size_t id = 0; id < sim.size(); ++id) position[id] = sim.position(id);
+    return damage_scene(s, o, position, cracks, pores_of(sim), sim.time());
+}
+
+} // namespace cartilage

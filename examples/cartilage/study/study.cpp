@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cartilage/study/study.hpp"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cstdio>
+#include <fstream>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include <lacuna/core/text.hpp>
+
+#include "cartilage/study/cache.hpp"
+#include "cartilage/study/snapshots.hpp"
+#include "cartilage/study/study_json.hpp"
+
+namespace cartilage {
+
+namespace {
+
+/// \throws usage_error
+study_result read_study(std::string const& directory, char const* what) {
+    std::string const path = directory + "/" + study_file;
+    std::string text;
+    try {
+        text = lacuna::read_file(path, what);
+    } catch (std::invalid_argument const&) {
+        throw usage_error(std::string(what) + directory + ": has no " + study_file + " that can be read");
+    }
+    try {
+        return study_from(text);
+    } catch (std::runtime_error const& bad) {
+        throw usage_error(path + ": is not a study: " + bad.what());
+    }
+}
+
+/// What two studies have to have in common to be parts of one; none: they have.
+std::optional<std::string> difference(study_result const& a, study_result const& b) {
+    if (a.choices != b.choices) return "choices";
+    if (a.lowest_MPa != b.lowest_MPa || a.highest_MPa != b.highest_MPa) return "range of loads";
+    if (a.resolution != b.resolution) return "resolution";
+    if (a.step_share != b.step_share) return "time step";
+    if (a.dry != b.dry) return "fluid";
+    if (a.length_um != b.length_um || a.height_um != b.height_um) return "size of the specimens";
+    return std::nullopt;
+}
+
+/// Near the loads of most packings of the preset `literal`, MPa.
+std::array<double, 3> first_guess(lacuna::cartilage_zone zone) {
+    switch (zone) {
+    case lacuna::cartilage_zone::surface: return {25, 110, 200};
+    case lacuna::cartilage_zone::middle: return {170, 600, 1000};
+    case lacuna::cartilage_zone::deep: return {170, 1500, 500};
+    default: return {30, 110, 1000};
+    }
+}
+
+/// Whether an independent piece of work belongs to the part of the study that is asked for.
+bool is_own(study_options const& o, std::size_t piece) { return int(piece % std::size_t(o.shards)) == o.shard - 1; }
+
+std::vector<paper_picture> pictures_of(study_options const& o) {
+    std::vector<paper_picture> own;
+    if (!o.pictures) return own;
+    std::size_t piece = o.zones.size() * std::size_t(o.seeds);
+    for (paper_picture const& p : paper_pictures())
+        if (std::count(o.zones.begin(), o.zones.end(), p.zone) != 0 && is_own(o, piece++)) own.push_back(p);
+    return own;
+}
+
+/// \return whether it was kept from before
+bool find_snapshot(study_options const& o, result_cache const& cache, paper_picture const& picture, snapshot& shot) {
+    options model = o.model;
+    model.zone = picture.zone;
+    model.seed = 1;
+    std::string const name = "figure-" + picture.figure;
+    std::string const key = key_of(model) + "picture " + lacuna::to_text(picture.load_MPa);
+    try {
+        if (auto const kept = cache.find(name, key)) {
+            shot = snapshot_from(*kept);
+            return true;
+        }
+    } catch (std::exception const&) {
+        // Damaged: as if it were not there.
+    }
+    shot = take_snapshot(picture, model);
+    cache.keep(name, key, json_of(shot));
+    return false;
+}
+
+} // namespace
+
+study_result study_frame(study_options const& o) {
+    study_result s;
+    s.lowest_MPa = o.loads.lowest_MPa;
+    s.highest_MPa = o.loads.highest_MPa;
+    s.resolution = o.loads.resolution;
+    s.choices = text_of(o.model.open, true);
+    s.code = code_version();
+    s.step_share = o.model.step_share;
+    s.dry = o.model.dry;
+    s.length_um = o.model.length_um;
+    s.height_um = o.model.height_um;
+    return s;
+}
+
+void refuse_other_study(std::string const& directory, study_result const& wanted) {
+    std::ifstream in(directory + "/" + study_file);
+    if (!in) return;
+    auto const other = difference(read_study(directory, "--out "), wanted);
+    if (other) throw usage_error("--out " + directory + ": holds another study (its " + *other +
+                                 (other->back() == 's' ? " differ" : " differs") + "); --force replaces it");
+}
+
+std::vector<packing_request> requests_of(study_options const& o) {
+    std::vector<packing_request> requests;
+    std::size_t piece = 0;
+    for (auto zone : o.zones)
+        for (std::uint64_t seed = 1; seed <= o.seeds; ++seed)
+            if (is_own(o, piece++)) {
+                packing_request r{o.model, o.loads};
+                r.model.zone = zone;
+                r.model.seed = seed;
+                r.loads.first_guess = first_guess(zone);
+                requests.push_back(std::move(r));
+            }
+    return requests;
+}
+
+study_result run_study(study_options const& o, pool_report& report) {
+    study_result result = study_frame(o);
+    pool_options how;
+    how.jobs = o.jobs;
+    how.cache = o.cache;
+    how.progress = o.quiet ? nullptr : stderr;
+    how.report = &report;
+    auto const pictures = pictures_of(o);
+    result_cache const cache(o.cache);
+    result.snapshots.resize(pictures.size());
+    std::atomic<std::size_t> kept{0};
+    for (std::size_t k = 0; k < pictures.size(); ++k)
+        how.further.emplace_back([&, k] { kept += find_snapshot(o, cache, pictures[k], result.snapshots[k]); });
+    result.packings = run_packings(requests_of(o), how);
+    report.runs += pictures.size() - kept;
+    report.runs_kept += kept;
+    return result;
+}
+
+study_result merge_studies(std::vector<std::string> const& directories) {
+    std::vector<study_result> parts;
+    for (std::string const& directory : directories) parts.push_back(read_study(directory, "merge "));
+    study_result whole = parts.front();
+    for (std::size_t p = 1; p < parts.size(); ++p) {
+        auto other = difference(whole, parts[p]);
+        if (!other && whole.code != parts[p].code) other = "code";
+        if (other)
+            throw usage_error("merge " + directories[p] + ": is no part of the study in " + directories[0] + ": its " + *other +
+                              (other->back() == 's' ? " differ" : " differs"));
+        for (auto& r : parts[p].packings) whole.packings.push_back(std::move(r));
+        for (auto& s : parts[p].snapshots) whole.snapshots.push_back(std::move(s));
+    }
+    auto const place = [](packing_result const& r) { return std::pair(r.zone, r.seed); };
+    std::stable_sort(whole.packings.begin(), whole.packings.end(),
+                     [&](auto const& a, auto const& b) { return place(a) < place(b); });
+    for (std::size_t k = 1; k < whole.packings.size(); ++k)
+        if (place(whole.packings[k]) == place(whole.packings[k - 1]))
+            throw usage_error("merge: zone " + std::string(lacuna::to_string(whole.packings[k].zone)) + ", seed " +
+                              std::to_string(whole.packings[k].seed) + " is in two of the parts");
+    std::stable_sort(whole.snapshots.begin(), whole.snapshots.end(),
+                     [](auto const& a, auto const& b) { return a.figure < b.figure; });
+    return whole;
+}
+
+} // namespace cartilage
