@@ -19,18 +19,17 @@ using namespace cartilage;
 namespace {
 
 constexpr double longest = 40e-9;       // s, of a made-up run
-constexpr double latest = 0.99 * longest; // s, when one may still come to an answer
+constexpr double latest = 0.99 * longest; // s, when one may still meet a criterion
 
-/// A packing of which all is known: the loads from which on each criterion is answered yes, and loads at which no run
-/// counts. At those loads a run comes to the answer in its last moment, at higher ones in inverse proportion to the load.
-/// Counts what it is asked.
+/// A packing of which all is known: the loads from which on each criterion is met, and loads at which no run counts. At
+/// those loads a run meets it in its last moment, at higher ones in inverse proportion to the load. Counts its runs.
 struct made_up {
     double first, capacity, complete;
     double bad_from = 1e9, bad_to = 0;
     std::map<double, double> simulated{}; // time, s, by load
     int calls = 0;
 
-    static std::optional<double> time_of_yes(double from, double load) {
+    static std::optional<double> time_of(double from, double load) {
         return load >= from ? std::optional(latest * from / load) : std::nullopt;
     }
     double time() const {
@@ -44,11 +43,11 @@ struct made_up {
         load_run p;
         p.load_MPa = load;
         double& done = simulated[load];
-        std::optional<double> const times[] = {time_of_yes(first, load), time_of_yes(capacity, load),
-                                               time_of_yes(complete, load)};
+        std::optional<double> const times[] = {time_of(first, load), time_of(capacity, load),
+                                               time_of(complete, load)};
         double const until = times[int(c)].value_or(longest);
         // A run is continued, never begun anew.
-        if (until <= done) throw std::logic_error("asked again");
+        if (until <= done) throw std::logic_error("run again");
         p.end_time = done = until;
         p.first_layer_fraction = std::min(1.0, 0.5 * load / capacity) * until / longest;
         if (load >= bad_from && load <= bad_to) {
@@ -123,7 +122,7 @@ TEST_CASE("The search finds each load to one step, wherever it is and wherever i
 }
 
 TEST_CASE("A good guess and a search that weighs the time of its runs save most of it") {
-    // Six runs at least, of each load the one that answers no and the one that answers yes at the very end. Halving the
+    // Six runs at least, of each load the one that does not meet its criterion and the one that does at the very end. Halving the
     // range instead takes eight for each load, and these between 0.2 and 1 of the longest time.
     for (double const off : {0.8, 1.0, 1.25}) {
         made_up packing{25, 110, 200};
@@ -133,7 +132,7 @@ TEST_CASE("A good guess and a search that weighs the time of its runs save most 
         CHECK(packing.time() > 6 * 0.97 * longest);
         CHECK(packing.time() < 19 * longest);
     }
-    // A load above the range takes no more than the one run at its end, which answers for both.
+    // A load above the range takes no more than the one run at its end, which serves both.
     made_up strong{170, 1500, 1200};
     load_range range;
     range.first_guess = {170, 1500, 1500};
@@ -196,7 +195,7 @@ TEST_CASE("Runs that do not count are passed by") {
     CHECK(invalid > 0);
 }
 
-TEST_CASE("The first crack is never above the other loads, whatever the answers") {
+TEST_CASE("The first crack is never above the other loads, whatever the outcomes") {
     // Answers without any order at all, from the digits of the load.
     for (std::uint64_t salt = 1; salt < 200; ++salt) {
         std::map<double, load_run> runs;
@@ -221,7 +220,7 @@ TEST_CASE("The first crack is never above the other loads, whatever the answers"
         double const complete = r.found.complete_MPa.value_or(r.found.no_complete[0] == 'b' ? 0 : 1e9);
         CHECK(first <= capacity);
         CHECK(first <= complete);
-        // Each is the upper end of two neighbours that answer no and yes.
+        // Each is the upper one of two neighbours: its criterion is met there, and not at the lower one.
         auto const at = [&](double load) {
             return std::find_if(r.runs.begin(), r.runs.end(), [&](load_run const& p) { return p.load_MPa == load; });
         };
