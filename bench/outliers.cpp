@@ -72,7 +72,7 @@ std::unique_ptr<lacuna::simulation<model<Dim>>> make(int side, outlier what, int
         s.bonds.back().shear_stiffness = 0;
     }
     auto sim = std::make_unique<lacuna::simulation<model<Dim>>>(p, s);
-    double const chosen = sim->time_step();
+    double const chosen = sim->resolve_time_step();
     s.time_step = std::min(step_length, chosen);
     sim = std::make_unique<lacuna::simulation<model<Dim>>>(p, s);
     std::mt19937_64 engine(1);

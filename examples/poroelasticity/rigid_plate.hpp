@@ -20,10 +20,10 @@ public:
     /// \param held the particles of the plate, fixed along `axis`; the plate sets their velocity
     /// \param stiffness of the adjacent discs against the plate, N/m
     /// \param damping divided by critical damping
-    rigid_plate(simulator const& sim, discs const& packing, std::vector<std::size_t> const& held, int axis,
+    rigid_plate(simulator& sim, discs const& packing, std::vector<std::size_t> const& held, int axis,
                 double stiffness, double damping)
         : axis_(axis), on_plate_(sim.size(), 0), particles_(held) {
-        double const frequency = 0.2 / sim.time_step();
+        double const frequency = 0.2 / sim.resolve_time_step();
         mass_ = stiffness / (frequency * frequency);
         drag_ = 2 * damping * mass_ * frequency;
         std::vector<char> on(sim.size(), 0);

@@ -99,7 +99,7 @@ private:
     void set_up();
     void fill();
     void drive_on(scenario const& before);
-    double settled_step() const;
+    double settled_step();
     void check_flow_step(double step) const;
     void tell_row(results& out);
     void save(results& out, bool regular);
@@ -233,9 +233,9 @@ void particle_runner<Model>::drive_on(scenario const& before) {
 }
 
 template <class Model>
-double particle_runner<Model>::settled_step() const {
+double particle_runner<Model>::settled_step() {
     try {
-        return sim_->time_step();
+        return sim_->resolve_time_step();
     } catch (std::invalid_argument const& bad) {
         if (!(scenario_.simulation.time_step > 0) && std::string_view(bad.what()).find("without any stiffness") != std::string_view::npos)
             refuse("simulation.time_step", "\"auto\"", "a number of seconds: nothing here has a stiffness to take it from");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// 3. A contact law of one's own: one formula, written over its scalar type.
+// 3. Your own contact law: one formula, written over its scalar type.
 //
 // A contact that yields (Walton and Braun 1986, J. Rheology 30, 949): pressed in with stiffness k_1, let out with the
 // higher k_2, so that a dent remains. Whatever the speed, what comes back of a relative velocity is sqrt(k_1 / k_2).
@@ -9,58 +9,35 @@
 #include <cmath>
 #include <string>
 
+#include <lacuna/laws/law_defaults.hpp>
 #include <lacuna/simulation.hpp>
 
 #include "check.hpp"
 
-// The functions of a formula: of numbers, packs of numbers and dual numbers alike.
-using lacuna::max, lacuna::min;
+// A formula uses functions that take numbers, packs of numbers and dual numbers alike.
+using lacuna::max;
 
-struct yielding_contact {
-    struct material { // what a user sets, per material
+struct yielding_contact : lacuna::law_defaults<yielding_contact> {
+    struct material { // what a user sets, per material; two materials combine as springs in series
         double loading = 1e6, unloading = 4e6; // k_1, k_2, N/m
         void validate(std::string const& name) const {
             lacuna::require_positive(name + ".loading", loading);
             if (!(unloading >= loading)) lacuna::refuse(name + ".unloading", unloading, ">= loading");
         }
     };
-    template <class T>
-    struct parameters { // what the formula reads, per pair of materials
-        T loading, unloading;
-    };
-    template <class T, int Dim>
-    struct history { // what a pair remembers
-        T touching_distance, deepest;
-    };
+    template <class T> struct parameters { T loading, unloading; };
+    template <class T, int Dim> struct history { T touching_distance, deepest; }; // what a pair remembers
 
-    static parameters<double> combine(material const& a, material const& b, double /*thickness*/) {
-        auto const series = [](double x, double y) { return 2 / (1 / x + 1 / y); };
-        return {series(a.loading, b.loading), series(a.unloading, b.unloading)};
-    }
-    template <class T, int Dim>
-    static history<T, Dim> initial(T distance, T /*touching_distance*/) {
-        return {distance, T(0)};
-    }
-    // Where a bond fails in shear the contact starts afresh: it has not yielded.
-    template <class T, int Dim>
-    static history<T, Dim> hand_over(parameters<T> const&, lacuna::pair_motion<T, Dim> const& m, T /*normal_force*/,
-                                     lacuna::vec<T, lacuna::shear_dim<Dim>> const& /*shear_force*/) {
-        return {min(m.distance, m.touching_distance()), T(0)};
-    }
     template <class T, int Dim>
     static lacuna::pair_response<T, Dim, history<T, Dim>>
     evaluate(parameters<T> const& p, lacuna::pair_motion<T, Dim> const& m, history<T, Dim> const& h) {
-        T overlap = max(h.touching_distance - m.distance, T(0));
-        T deepest = max(overlap, h.deepest);
-        T dent = deepest * (T(1) - p.loading / p.unloading);
-        T pressed = p.unloading * max(overlap - dent, T(0));
-        T plastic = T(0.5) * p.loading * (T(1) - p.loading / p.unloading) * (deepest * deepest - h.deepest * h.deepest);
+        T overlap = max(h.touching_distance - m.distance, T(0)), deepest = max(overlap, h.deepest);
+        T yielded = T(1) - p.loading / p.unloading; // share of the deepest overlap that remains as a dent
+        T pressed = p.unloading * max(overlap - deepest * yielded, T(0));
+        T plastic = T(0.5) * p.loading * yielded * (deepest * deepest - h.deepest * h.deepest);
         return {-pressed, {}, {h.touching_distance, deepest}, T(0.5) * pressed * pressed / p.unloading, plastic};
     }
-    template <class T>
-    static T stiffness(parameters<T> const& p) { // the stiffest it gets
-        return p.unloading;
-    }
+    template <class T> static T stiffness(parameters<T> const& p) { return p.unloading; } // the stiffest it gets
 };
 
 struct model : lacuna::default_model<2> {

@@ -9,6 +9,7 @@
 #include <lacuna/laws/frictional_spring.hpp>
 #include <lacuna/laws/law_concepts.hpp>
 #include <lacuna/laws/no_contact.hpp>
+#include <lacuna/loads/body_force.hpp>
 #include <lacuna/motion/symplectic_euler.hpp>
 #include <lacuna/neighbors/cell_grid.hpp>
 #include <lacuna/particles/domain.hpp>
@@ -32,6 +33,7 @@ struct default_model {
     using bond_law = brittle_spring_bond;
     using damping = no_damping;
     using flow = no_flow;
+    using forces = no_forces;
     using integrator = symplectic_euler;
     using domain = open_domain;
     template <class R, int D>
@@ -51,7 +53,8 @@ template <class M>
 concept model = plane_or_space<M::dim> && std::floating_point<typename M::real> &&
     contact_law<typename M::contact_law, M::dim> && bond_law<typename M::bond_law, M::dim> &&
     damping_policy<typename M::damping> && flow_policy<typename M::flow, M::dim, typename M::real> &&
-    integrator<typename M::integrator, M::dim> && domain_policy<typename M::domain, M::dim> &&
+    forces_policy<typename M::forces, M::dim, typename M::real> && integrator<typename M::integrator, M::dim> &&
+    domain_policy<typename M::domain, M::dim> &&
     neighbor_search<typename M::template search<typename M::real, M::dim>>;
 
 } // namespace lacuna

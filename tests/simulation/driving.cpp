@@ -119,7 +119,7 @@ TEST_CASE("the step follows the critical one when bonds break", "[limits]") {
     lacuna::simulation<plane> sim(chain<2>(4), p);
     sim.fix(0);
     sim.prescribe_velocity(3, {1e-2, 0});
-    double const first = sim.time_step();
+    double const first = sim.resolve_time_step();
     double time = 0;
     while (sim.events().empty()) {
         sim.run(1);

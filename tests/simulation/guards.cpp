@@ -77,9 +77,9 @@ TEST_CASE("a bound of zero is no time step", "[guards]") {
     auto p = springs<plane_viscous>(1e6, 0);
     p.damping.ratio = 1e200;
     lacuna::simulation<plane_viscous> run(chain<2>(2), p);
-    REQUIRE_THROWS_WITH(run.time_step(), contains_text("time_step = ") && contains_text("leaves the range of double precision"));
+    REQUIRE_THROWS_WITH(run.resolve_time_step(), contains_text("time_step = ") && contains_text("leaves the range of double precision"));
     p.damping.ratio = 0.5;
-    REQUIRE(lacuna::simulation<plane_viscous>(chain<2>(2), p).time_step() > 0);
+    REQUIRE(lacuna::simulation<plane_viscous>(chain<2>(2), p).resolve_time_step() > 0);
 }
 
 TEST_CASE("a shallow truss of two bars snaps through beyond its limit load, not below", "[guards]") {

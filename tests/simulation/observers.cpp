@@ -111,3 +111,33 @@ TEST_CASE("an observer gets energies in the steps that it names", "[observer]") 
     for (std::size_t k = 0; k < lost.size(); ++k)
         REQUIRE_THAT(again.fracture[k], WithinAbs(k < 3 ? 0 : loss, 1e-12));
 }
+
+TEST_CASE("observers as lambdas: every() and at_end()", "[observer]") {
+    auto run = pulled();
+    std::vector<long long> seen;
+    std::string end;
+    run.run(7, lacuna::every(3, [&](auto const& s) { seen.push_back(s.steps()); }),
+            lacuna::at_end([&](run_type const& s) { end = "end" + std::to_string(s.steps()); }));
+    CHECK(seen == std::vector<long long>{3, 6});
+    CHECK(end == "end7");
+    // Steps are those of the simulation, not of the call.
+    run.run(3, lacuna::every(5, [&](auto const& s) { seen.push_back(s.steps()); }));
+    CHECK(seen == std::vector<long long>{3, 6, 10});
+    auto const taken = run.run(100, lacuna::every(4, [](auto const& s) {
+        return s.steps() >= 16 ? lacuna::run_control::stop : lacuna::run_control::go_on;
+    }));
+    CHECK(taken == 6);
+    CHECK_THROWS_WITH(lacuna::every(0, [](auto const&) {}), contains_text("every.interval = 0: must be >= 1"));
+}
+
+TEST_CASE("a local class without a list of stages observes with the hooks that it has", "[observer]") {
+    struct watcher {
+        int steps = 0, breaks = 0;
+        void on_step(run_type const&) { ++steps; }
+        void on_break(lacuna::break_event<2> const&, run_type const&) { ++breaks; }
+    } watch;
+    auto run = pulled();
+    run.run(8, watch);
+    CHECK(watch.steps == 8);
+    CHECK(watch.breaks == 1);
+}

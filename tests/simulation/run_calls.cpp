@@ -140,7 +140,7 @@ TEST_CASE("what is set after the time step was asked for counts in the first ste
         discs.add({0.0, 0.0}, 0.5);
         discs.add({2.0, 0.0}, 0.5);
         simulation<default_model<2>> sim(discs, {});
-        double const slow = sim.time_step();
+        double const slow = sim.resolve_time_step();
         // So fast that a tenth of the radius is more than a step of the stiffness: m/s.
         sim.set_velocity(0, {1.0 / slow, 0.0});
         return sim;

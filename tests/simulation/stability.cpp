@@ -230,5 +230,5 @@ TEST_CASE("a step above the bound is refused, and runs when asked to", "[stabili
     p.time_step = 0;
     p.safety = 0.25;
     lacuna::simulation<plane> own(chain<2>(10), p);
-    REQUIRE_THAT(own.time_step(), WithinRel(0.25 * own.limits().critical(), 1e-14));
+    REQUIRE_THAT(own.resolve_time_step(), WithinRel(0.25 * own.limits().critical(), 1e-14));
 }

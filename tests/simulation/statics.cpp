@@ -80,7 +80,7 @@ TEST_CASE("patch test: the inside of a lattice follows an affine motion of its r
         return lacuna::vec<double, 2>{g[0][0] * x[0] + g[0][1] * x[1], g[1][0] * x[0] + g[1][1] * x[1]};
     };
     int const moving = 100;
-    double const duration = moving * run.time_step();
+    double const duration = moving * run.resolve_time_step();
     for (std::size_t k = 0; k < run.size(); ++k) {
         if (!on_rim(k)) continue;
         run.fix(k);
@@ -132,7 +132,7 @@ TEST_CASE("moduli of the triangular lattice", "[statics][reference]") {
             auto p = damped(std::stod(ratio));
             lacuna::simulation<plane_locally_damped> run(packing, p);
             for (std::size_t k = 0; k < run.size(); ++k) run.fix(k);
-            double const duration = 10 * run.time_step(); // where all are held no step is too long: a share of eq. 9's
+            double const duration = 10 * run.resolve_time_step(); // where all are held no step is too long: a share of eq. 9's
             for (std::size_t k = 0; k < run.size(); ++k) {
                 auto const& x = packing.position[k];
                 if (kind == "stretch")

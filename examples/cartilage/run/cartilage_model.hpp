@@ -55,8 +55,8 @@ std::unique_ptr<lacuna::simulation<Model>> load_specimen(specimen const& s, opti
 #define CARTILAGE_INSTANTIATE(Model, as)                                                                                \
     as template std::unique_ptr<lacuna::simulation<cartilage::Model>> cartilage::load_specimen(                         \
         cartilage::specimen const&, cartilage::options const&);                                                        \
-    as template void lacuna::simulation<cartilage::Model>::advance<true>();                                             \
-    as template double lacuna::simulation<cartilage::Model>::time_step() const;                                         \
+    as template void lacuna::explicit_stepper<cartilage::Model>::step<true>();                                          \
+    as template double lacuna::simulation<cartilage::Model>::resolve_time_step();                                       \
     as template lacuna::time_step_limits lacuna::simulation<cartilage::Model>::limits() const;
 CARTILAGE_INSTANTIATE(dry_model, extern)
 CARTILAGE_INSTANTIATE(wet_model, extern)

@@ -135,7 +135,7 @@ std::unique_ptr<lacuna::simulation<Model>> load_specimen(specimen const& s, opti
     auto sim = std::make_unique<lacuna::simulation<Model>>(s.discs, parameters);
     set_up(*sim, s, o.load_MPa * 1e6, o.open);
     try {
-        if (o.time_step_ps) sim->time_step();
+        if (o.time_step_ps) sim->resolve_time_step();
     } catch (std::invalid_argument const& bad) {
         throw std::invalid_argument("--time-step: " + std::string(bad.what()) + ": --allow-unstable-step");
     }

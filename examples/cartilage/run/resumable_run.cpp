@@ -12,7 +12,7 @@ template <class Model>
 class model_run final : public resumable_run {
 public:
     model_run(specimen const& s, options const& o)
-        : sim_(load_specimen<Model>(s, o)), watch_(s, o), steps_(watch_.rule().steps(sim_->time_step())) {}
+        : sim_(load_specimen<Model>(s, o)), watch_(s, o), steps_(watch_.rule().steps(sim_->resolve_time_step())) {}
 
     load_run run_until(criterion c) override {
         load_run const& result = watch_.result();

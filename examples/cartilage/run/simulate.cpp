@@ -95,7 +95,7 @@ run_result follow(specimen const& s, options const& o, lacuna::run_directory& ou
     run_result result;
     result.specimen = report_of(s);
     ending end(o);
-    long long const steps = end.steps(sim.time_step());
+    long long const steps = end.steps(sim.resolve_time_step());
     result.ended = end.at_longest();
 
     lacuna::progress_options speak;

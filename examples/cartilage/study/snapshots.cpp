@@ -124,7 +124,7 @@ void follow(specimen const& s, options const& o, snapshot& shot) {
     lacuna::simulation<Model>& sim = *loaded;
     load_run_watch watch(s, o);
     front_watch fronts(s, shot.fronts);
-    shot.run = watch.follow(criterion::end, sim, watch.rule().steps(sim.time_step()), fronts);
+    shot.run = watch.follow(criterion::end, sim, watch.rule().steps(sim.resolve_time_step()), fronts);
     shot.damage = picture_of(sim, s, o, fronts.cracks());
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <type_traits>
 
 #include <lacuna/core/scalar.hpp>
 
@@ -15,6 +16,9 @@ struct dual {
 
     constexpr dual() = default;
     constexpr dual(T v) noexcept : value(v) {} // NOLINT: a plain number is a dual with zero derivatives
+    constexpr dual(value_t<T> v) noexcept // NOLINT: so is one for all lanes of a pack
+        requires(!std::is_same_v<T, value_t<T>>)
+        : value(v) {}
     /// The variable number `index`, with value v and derivative 1 by itself.
     static constexpr dual variable(T v, int index) noexcept {
         dual r(v);
@@ -50,44 +54,50 @@ struct dual {
     constexpr dual& operator+=(dual const& b) noexcept { return *this = *this + b; }
     constexpr dual& operator-=(dual const& b) noexcept { return *this = *this - b; }
     constexpr dual& operator*=(dual const& b) noexcept { return *this = *this * b; }
-    friend constexpr bool operator<(dual const& a, dual const& b) noexcept { return a.value < b.value; }
-    friend constexpr bool operator>(dual const& a, dual const& b) noexcept { return a.value > b.value; }
-    friend constexpr bool operator<=(dual const& a, dual const& b) noexcept { return a.value <= b.value; }
-    friend constexpr bool operator>=(dual const& a, dual const& b) noexcept { return a.value >= b.value; }
+    friend constexpr mask_t<T> operator<(dual const& a, dual const& b) noexcept { return a.value < b.value; }
+    friend constexpr mask_t<T> operator>(dual const& a, dual const& b) noexcept { return a.value > b.value; }
+    friend constexpr mask_t<T> operator<=(dual const& a, dual const& b) noexcept { return a.value <= b.value; }
+    friend constexpr mask_t<T> operator>=(dual const& a, dual const& b) noexcept { return a.value >= b.value; }
 };
 
 template <class T, int N>
 struct value_of<dual<T, N>> {
-    using type = T;
+    using type = value_t<T>;
+};
+template <class T, int N>
+struct mask_of<dual<T, N>> {
+    using type = mask_t<T>;
 };
 
 template <class T, int N>
-constexpr dual<T, N> select(bool condition, dual<T, N> const& a, dual<T, N> const& b) noexcept {
-    return condition ? a : b;
+constexpr dual<T, N> select(mask_t<T> const& condition, dual<T, N> const& a, dual<T, N> const& b) noexcept {
+    dual<T, N> r(select(condition, a.value, b.value));
+    for (int i = 0; i < N; ++i) r.derivative[i] = select(condition, a.derivative[i], b.derivative[i]);
+    return r;
 }
 template <class T, int N>
 dual<T, N> sqrt(dual<T, N> const& a) noexcept {
-    dual<T, N> r(std::sqrt(a.value));
-    for (int i = 0; i < N; ++i) r.derivative[i] = r.value > T(0) ? a.derivative[i] / (T(2) * r.value) : T(0);
+    dual<T, N> r(sqrt(a.value));
+    for (int i = 0; i < N; ++i) r.derivative[i] = select(r.value > T(0), a.derivative[i] / (T(2) * r.value), T(0));
     return r;
 }
 template <class T, int N>
 dual<T, N> exp(dual<T, N> const& a) noexcept {
-    dual<T, N> r(std::exp(a.value));
+    dual<T, N> r(exp(a.value));
     for (int i = 0; i < N; ++i) r.derivative[i] = r.value * a.derivative[i];
     return r;
 }
 template <class T, int N>
 dual<T, N> abs(dual<T, N> const& a) noexcept {
-    return a.value < T(0) ? -a : a;
+    return select(a.value < T(0), -a, a);
 }
 template <class T, int N>
 constexpr dual<T, N> min(dual<T, N> const& a, dual<T, N> const& b) noexcept {
-    return b < a ? b : a;
+    return select(b < a, b, a);
 }
 template <class T, int N>
 constexpr dual<T, N> max(dual<T, N> const& a, dual<T, N> const& b) noexcept {
-    return a < b ? b : a;
+    return select(a < b, b, a);
 }
 
 } // namespace lacuna

@@ -62,8 +62,8 @@ auto fail_bond(particle_store<Real, Dim> const& store, BondEntry const& bond, Bo
         event.position[axis] = double(i.position[axis] + frame.normal[axis] * (frame.lever * i.radius));
     event.normal_force = double(answer.normal_force);
     event.shear_force = Dim == 2 ? double(answer.shear_force[0]) : double(norm(answer.shear_force));
-    event.energy = double(answer.stored_energy);
-    failure.stored = double(contact.stored_energy) - double(answer.stored_energy);
+    event.energy = stored_energy_of(answer);
+    failure.stored = stored_energy_of(contact) - stored_energy_of(answer);
     // The integrator sees the mean of old and new force over the step: what the springs lose to the failure is the
     // stored energy less the work that the missing force would have done.
     failure.released =

@@ -28,34 +28,6 @@ void add_moments(particle_store<Real, Dim> const& store, Table const& pairs, std
     }
 }
 
-/// Calls visit(i, j, normal, moment_stiffness) for every pair of a law with moments.
-template <class Law, class Table, class Real, int Dim, class Visit>
-void visit_moment_stiffness(particle_store<Real, Dim> const& store, Table const& pairs,
-                            parameter_table<Law, Real> const& parameters, Visit const& visit) {
-    for (std::size_t s = 0; s < pairs.slots(); ++s) {
-        if (pairs.is_padding(s, store.size())) continue;
-        auto const i = std::size_t(pairs.i(s)), j = std::size_t(pairs.j(s));
-        auto const arm = convert<double>(store.nearest(store.position(j) - store.position(i)));
-        auto const k = Law::template rotational_stiffness<Dim>(parameters.row[std::size_t(pairs.parameter()[s])],
-                                                          store.radius(i), store.radius(j), Real(norm(arm)));
-        visit(i, j, arm / norm(arm), moment_stiffness<double>{double(k.bending), double(k.twisting)});
-    }
-}
-
-/// Calls visit(i, j, normal, moment_stiffness) for the contacts of a law with moments that touch, or may under an
-/// assumption.
-template <class Law, class Table, class Real, int Dim, class Visit>
-void visit_moment_stiffness(particle_store<Real, Dim> const& store, Table const& contacts,
-                            parameter_table<Law, Real> const& parameters, contact_assumption const& assumed,
-                            Visit const& visit) {
-    visit_contacts<Law>(store, contacts, assumed, [&](std::size_t s, std::size_t i, std::size_t j, auto const& arm,
-                                                      double distance, double) {
-        auto const k = Law::template rotational_stiffness<Dim>(parameters.row[std::size_t(contacts.parameter()[s])],
-                                                          store.radius(i), store.radius(j), Real(distance));
-        visit(i, j, arm / distance, moment_stiffness<double>{double(k.bending), double(k.twisting)});
-    });
-}
-
 /// Gives each bond with values of its own a row of its own in the table of parameters.
 /// \param own one per bond, by the bonds' labels
 /// \throws std::invalid_argument for another number of values, bad ones, and those that the law does not take

@@ -110,30 +110,24 @@ public:
     }
     chunk_spans const& spans() const noexcept { return forces_.spans(); }
 
-    /// Pair forces of the pairs that a chunk of particles owns. Chunks are independent of each other.
-    template <bool WithEnergy>
+    /// Evaluates the forces of the pairs that a chunk of particles owns. Chunks are independent of each other.
+    /// \tparam Commit false: a trial, which leaves histories as they are, breaks no bond and notes no overlap
+    /// \param time_step of the motion that led to the positions, s
+    template <bool WithEnergy, bool Commit = true>
     void evaluate(store_type const& store, int chunk, Real time_step) {
         auto& energy = energy_[std::size_t(chunk)];
         energy = {};
         auto ahead = forces_.plan_prefetch(store, chunk, bonds_, contacts_);
+        overlap_limits<Real> const limits{deepest_, watched_};
         if constexpr (!is_absent<BondLaw>)
-            evaluate_chunk<pair_kind::bond, WithEnergy, BondLaw, Damping, Domain>(
-                bonds_, chunk, bond_parameters_, damping_, store, time_step, forces_.template begin<0>(bonds_, chunk),
-                forces_.template places<0>(bonds_, chunk), forces_.template normals_of<0>(), moments_.data(), ahead, energy[0],
-                [&](std::size_t pack) { break_bonds(store, chunk, pack, time_step); }, deepest_);
+            evaluate_chunk<pair_kind::bond, WithEnergy, Commit, BondLaw, Damping, Domain>(
+                bonds_, chunk, bond_parameters_, damping_, store, time_step, output<pair_kind::bond>(bonds_, chunk, moments_),
+                ahead, energy[0], limits, [&](std::size_t pack) { break_bonds(store, chunk, pack, time_step); });
         if constexpr (!is_absent<ContactLaw>)
-            evaluate_chunk<pair_kind::contact, WithEnergy, ContactLaw, Damping, Domain>(
-                contacts_, chunk, contact_parameters_, damping_, store, time_step, forces_.template begin<1>(contacts_, chunk),
-                forces_.template places<1>(contacts_, chunk), forces_.template normals_of<1>(), contact_moments_.data(), ahead, energy[1],
-                [&](std::size_t pack) {
-                    if (auto const found = find_deep_overlap(store, contacts_, pack, deepest_); found[0] >= 0)
-                        deep_overlap_[std::size_t(chunk)] = found;
-                    if constexpr (stiffens<ContactLaw, Dim>) {
-                        auto& share = overlap_share_[std::size_t(chunk)];
-                        share = std::max(share, deepest_of_pack(store, contacts_, pack));
-                    }
-                },
-                deepest_, watched_);
+            evaluate_chunk<pair_kind::contact, WithEnergy, Commit, ContactLaw, Damping, Domain>(
+                contacts_, chunk, contact_parameters_, damping_, store, time_step,
+                output<pair_kind::contact>(contacts_, chunk, contact_moments_), ahead, energy[1], limits,
+                [&](std::size_t pack) { note_overlaps(store, chunk, pack); });
     }
     /// As force_buffer::for_force_sums().
     template <class Use>
@@ -145,15 +139,6 @@ public:
     void add_moments([[maybe_unused]] store_type const& store, [[maybe_unused]] record_column<Real>& out) const noexcept {
         if constexpr (carries_moment<BondLaw>) lacuna::add_moments(store, bonds_, moments_, out);
         if constexpr (carries_moment<ContactLaw>) lacuna::add_moments(store, contacts_, contact_moments_, out);
-    }
-    /// Calls visit(i, j, normal, moment_stiffness) for the same, of laws that carry moments.
-    template <class Visit>
-    void for_each_moment_stiffness([[maybe_unused]] store_type const& store,
-                                   [[maybe_unused]] contact_assumption const& assumed,
-                                   [[maybe_unused]] Visit const& visit) const {
-        if constexpr (carries_moment<BondLaw>) visit_moment_stiffness<BondLaw>(store, bonds_, bond_parameters_, visit);
-        if constexpr (carries_moment<ContactLaw>)
-            visit_moment_stiffness<ContactLaw>(store, contacts_, contact_parameters_, assumed, visit);
     }
 
     /// Failures of the step just evaluated, in the order of the pairs; to be completed with step and time.
@@ -210,14 +195,13 @@ public:
     }
     bool has_contacts() const noexcept { return !is_absent<ContactLaw> && parameters_.contacts; }
 
-    /// Calls visit(i, j, normal, normal_stiffness, shear_stiffness, prestress, lever_i, lever_j) for every bond and
-    /// for the contacts that touch or may under an assumption: what a bound of the stable time step has to count with.
-    /// Stiffnesses in N/m are the laws' own derivatives.
+    /// Calls visit(pair_tangent) for every bond, then for the contacts that touch, or may under an assumption. The
+    /// stiffnesses are the laws' own derivatives.
     template <class Visit>
-    void for_each_stiffness(store_type const& store, contact_assumption const& assumed, Visit const& visit) const {
-        if constexpr (!is_absent<BondLaw>) visit_stiffness<BondLaw, true>(store, bonds_, bond_parameters_, assumed, visit);
+    void for_each_pair_tangent(store_type const& store, contact_assumption const& assumed, Visit const& visit) const {
+        if constexpr (!is_absent<BondLaw>) visit_bond_tangents<BondLaw>(store, bonds_, bond_parameters_, visit);
         if constexpr (!is_absent<ContactLaw>)
-            visit_stiffness<ContactLaw, false>(store, contacts_, contact_parameters_, assumed, visit);
+            visit_contact_tangents<ContactLaw>(store, contacts_, contact_parameters_, assumed, visit);
     }
     /// Calls visit(contact_seen, pair_stiffness) for the contacts that touch or may under an assumption.
     template <class Visit>
@@ -231,18 +215,18 @@ public:
     std::int32_t find_force(std::int32_t i, std::int32_t j) const noexcept {
         if (i > j) std::swap(i, j);
         std::int32_t slot = bonds_.find(i, j);
-        if (slot >= 0) return forces_.template find<0>(i / chunk_particles, slot);
+        if (slot >= 0) return forces_.template find<pair_kind::bond>(i / chunk_particles, slot);
         slot = contacts_.find(i, j);
-        return slot >= 0 ? forces_.template find<1>(i / chunk_particles, slot) : -1;
+        return slot >= 0 ? forces_.template find<pair_kind::contact>(i / chunk_particles, slot) : -1;
     }
     Real const* force_column() const noexcept { return forces_.column(); }
     /// Place in normal_forces() of the normal force of the pair (i, j), internal indices in any order; 0 if it is no pair.
     std::int32_t find_normal_force(std::int32_t i, std::int32_t j) const noexcept {
         if (i > j) std::swap(i, j);
         std::int32_t slot = bonds_.find(i, j);
-        if (slot >= 0) return forces_.template find_normal<0>(slot);
+        if (slot >= 0) return forces_.template find_normal<pair_kind::bond>(slot);
         slot = contacts_.find(i, j);
-        return slot >= 0 ? forces_.template find_normal<1>(slot) : 0;
+        return slot >= 0 ? forces_.template find_normal<pair_kind::contact>(slot) : 0;
     }
     /// Normal forces of all pairs, N, positive in tension, once keep_normal_forces() is called; the first is 0.
     Real const* normal_forces() const noexcept { return forces_.normals(); }
@@ -357,6 +341,19 @@ private:
         overlap_share_.assign(chunks, Real(0));
     }
 
+    template <pair_kind Kind, class Table>
+    chunk_output<Real> output(Table const& table, int chunk, std::vector<Real>& moments) noexcept {
+        return {forces_.template begin<Kind>(table, chunk), forces_.template places<Kind>(table, chunk),
+                forces_.template normals_of<Kind>(), moments.data()};
+    }
+    void note_overlaps(store_type const& store, int chunk, std::size_t pack) {
+        if (auto const found = find_deep_overlap(store, contacts_, pack, deepest_); found[0] >= 0)
+            deep_overlap_[std::size_t(chunk)] = found;
+        if constexpr (stiffens<ContactLaw, Dim>) {
+            auto& share = overlap_share_[std::size_t(chunk)];
+            share = std::max(share, deepest_of_pack(store, contacts_, pack));
+        }
+    }
     [[gnu::noinline]] void break_bonds(store_type const& store, int chunk, std::size_t pack, Real time_step) {
         for (std::size_t s = pack * bond_table::width; s < (pack + 1) * bond_table::width; ++s) {
             if (bonds_.is_padding(s, store.size())) continue;
@@ -365,7 +362,7 @@ private:
             auto const failed = fail_bond<BondLaw, ContactLaw>(
                 store, bond, bond_parameters_.row[std::size_t(bond.parameter)],
                 contact_parameters_.row[std::size_t(row)], row, time_step,
-                forces_.template of<0>(chunk, s));
+                forces_.template of<pair_kind::bond>(chunk, s));
             if (!failed) continue;
             if constexpr (carries_moment<BondLaw>)
                 std::fill_n(moments_.begin() + std::ptrdiff_t(s * rotation_dim<Dim>), rotation_dim<Dim>, Real(0));

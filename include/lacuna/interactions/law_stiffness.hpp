@@ -17,6 +17,19 @@ struct pair_stiffness {
     double normal, shear;
 };
 
+/// Tangent of one pair: how its forces change with the relative motion of its particles. SI units.
+template <int Dim>
+struct pair_tangent {
+    std::size_t i, j;        ///< internal indices
+    bool bonded;             ///< a bond, else a contact
+    vec<double, Dim> normal; ///< unit vector from i to j
+    double normal_stiffness; ///< N/m
+    double shear_stiffness;  ///< N/m
+    double prestress;        ///< force of the pair over its distance, N/m
+    double lever_i, lever_j; ///< from the centres to the point where the shear force acts, m
+    moment_stiffness<double> moments; ///< N m/rad; zero of laws that carry no moments
+};
+
 /// What a bound of the stable time step assumes of contacts until it is looked for again.
 struct contact_assumption {
     double gap = 0;     ///< pairs that are further apart, m, do not touch
@@ -123,29 +136,29 @@ void visit_depths(particle_store<Real, Dim> const& store, Table const& table, Pa
     });
 }
 
-/// Calls visit(i, j, normal, normal_stiffness, shear_stiffness, prestress, lever_i, lever_j) for every bond of a table,
-/// or for the contacts that touch or may under an assumption; the prestress is the pair's force over its distance. N/m, m.
-/// \tparam Bonded see law_stiffness()
-template <class Law, bool Bonded, class Real, int Dim, class Table, class Parameters, class Visit>
-void visit_stiffness(particle_store<Real, Dim> const& store, Table const& table, Parameters const& parameters,
-                     contact_assumption const& assumed, Visit const& visit) {
-    auto const tell = [&](std::size_t s, std::size_t i, std::size_t j, auto const& arm, double distance,
-                          [[maybe_unused]] double overlap) {
-        double const ri = double(store.radius(i)), rj = double(store.radius(j));
-        auto const& row = parameters.row[std::size_t(table.parameter()[s])];
-        pair_stiffness k;
-        if constexpr (Bonded)
-            k = law_stiffness<Law, Dim>(row, distance, ri, rj, true);
-        else
-            k = contact_stiffness<Law, Dim>(row, overlap, ri, rj, assumed);
-        pair_motion<Real, Dim> const still{Real(distance), Real(ri), Real(rj), {}, Real(0)};
-        auto const force = Law::evaluate(row, still, table.get(s).state);
-        double const prestress = std::hypot(double(force.normal_force), double(norm(force.shear_force))) / distance;
-        double lever_i = distance * ri / (ri + rj), lever_j = distance * rj / (ri + rj);
-        if constexpr (requires { Law::shears_in_the_middle; }) lever_i = lever_j = distance / 2;
-        visit(i, j, arm / distance, k.normal, k.shear, prestress, lever_i, lever_j);
-    };
-    if constexpr (!Bonded) return visit_contacts<Law>(store, table, assumed, tell);
+/// Tangent of one pair in its present state.
+/// \param arm from i to j, m; \param distance its length, m; \param k its stiffness along the normal and across
+template <class Law, class Real, int Dim, class Parameters, class State>
+pair_tangent<Dim> tangent_of(particle_store<Real, Dim> const& store, std::size_t i, std::size_t j, bool bonded,
+                             vec<double, Dim> const& arm, double distance, pair_stiffness const& k, Parameters const& row,
+                             State const& state) {
+    double const ri = double(store.radius(i)), rj = double(store.radius(j));
+    pair_motion<Real, Dim> const still{Real(distance), Real(ri), Real(rj), {}, Real(0)};
+    auto const force = Law::evaluate(row, still, state);
+    pair_tangent<Dim> t{i, j, bonded, arm / distance, k.normal, k.shear, 0, distance * ri / (ri + rj), distance * rj / (ri + rj), {}};
+    t.prestress = std::hypot(double(force.normal_force), double(norm(force.shear_force))) / distance;
+    if constexpr (requires { Law::shears_in_the_middle; }) t.lever_i = t.lever_j = distance / 2;
+    if constexpr (carries_moment<Law>) {
+        auto const moments = Law::template rotational_stiffness<Dim>(row, store.radius(i), store.radius(j), Real(distance));
+        t.moments = {double(moments.bending), double(moments.twisting)};
+    }
+    return t;
+}
+
+/// Calls visit(pair_tangent) for every bond of a table.
+template <class Law, class Real, int Dim, class Table, class Parameters, class Visit>
+void visit_bond_tangents(particle_store<Real, Dim> const& store, Table const& table, Parameters const& parameters,
+                         Visit const& visit) {
     for (std::size_t s = 0; s < table.slots(); ++s) {
         if (table.is_padding(s, store.size())) continue;
         auto const i = std::size_t(table.i(s)), j = std::size_t(table.j(s));
@@ -153,8 +166,23 @@ void visit_stiffness(particle_store<Real, Dim> const& store, Table const& table,
         for (int axis = 0; axis < Dim; ++axis)
             arm[axis] = double(store.position(j)[axis]) - double(store.position(i)[axis]);
         arm = store.nearest(arm);
-        tell(s, i, j, arm, norm(arm), 0.0);
+        double const distance = norm(arm);
+        auto const& row = parameters.row[std::size_t(table.parameter()[s])];
+        auto const k = law_stiffness<Law, Dim>(row, distance, double(store.radius(i)), double(store.radius(j)), true);
+        visit(tangent_of<Law>(store, i, j, true, arm, distance, k, row, table.get(s).state));
     }
+}
+
+/// Calls visit(pair_tangent) for the contacts of a table that touch, or may under an assumption.
+template <class Law, class Real, int Dim, class Table, class Parameters, class Visit>
+void visit_contact_tangents(particle_store<Real, Dim> const& store, Table const& table, Parameters const& parameters,
+                            contact_assumption const& assumed, Visit const& visit) {
+    visit_contacts<Law>(store, table, assumed, [&](std::size_t s, std::size_t i, std::size_t j, auto const& arm,
+                                                   double distance, double overlap) {
+        auto const& row = parameters.row[std::size_t(table.parameter()[s])];
+        auto const k = contact_stiffness<Law, Dim>(row, overlap, double(store.radius(i)), double(store.radius(j)), assumed);
+        visit(tangent_of<Law>(store, i, j, false, arm, distance, k, row, table.get(s).state));
+    });
 }
 
 } // namespace lacuna

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
 #include <vector>
 
 #include <lacuna/core/prefetch.hpp>
@@ -134,6 +137,13 @@ void store_pair_forces(Real* to, vec<Lanes, Dim> const& force, vec<Lanes, rotati
     }
 }
 
+/// Writes the moments on the first of each pair of a pack, rotation_dim numbers a slot.
+template <class Real, class Lanes, int N>
+void store_moments(Real* to, std::size_t slot, vec<Lanes, N> const& moment) noexcept {
+    for (int k = 0; k < Lanes::width; ++k)
+        for (int axis = 0; axis < N; ++axis) to[(slot + std::size_t(k)) * std::size_t(N) + std::size_t(axis)] = moment[axis][k];
+}
+
 /// A law's answer to the motion of one pack of pairs; a law with moments also sees how the pair bends.
 template <class Law, class Lanes, class Real, int Dim, class Parameters, class State>
 auto evaluate_law(Parameters const& law, pair_frame<Lanes, Dim> const& frame, State const& state,
@@ -152,46 +162,105 @@ auto evaluate_law(Parameters const& law, pair_frame<Lanes, Dim> const& frame, St
 /// One pack of pairs as the kinematics sees it.
 template <class Lanes, int Dim>
 struct pair_view {
+    static constexpr int dim = Dim;
     relative_state<Lanes, Dim> pair;
     pair_frame<Lanes, Dim> frame;
 };
 
-/// How the pair loop treats one law.
-enum class pair_kind { contact, bond };
+/// The normal force of one pack of pairs with that of their dashpots.
+template <pair_kind Kind, class Law, class Damping, class Lanes, class Parameters, class Frame, class State, class Table, class Store>
+Lanes with_dashpots(Lanes const& normal, typename Damping::parameters const& damping, Parameters const& law,
+                    Frame const& frame, State const& state, Table const& table, Store const& store, std::size_t slot) noexcept {
+    Lanes mass_i, mass_j, none(value_t<Lanes>(0));
+    for (int k = 0; k < Lanes::width; ++k) {
+        mass_i.v[k] = store.masses()[table.i(slot + std::size_t(k))];
+        mass_j.v[k] = store.masses()[table.j(slot + std::size_t(k))];
+    }
+    auto drag = Damping::pair_force(damping, dashpot_stiffness<Law>(law, frame.motion, state), mass_i, mass_j,
+                                    frame.motion.normal_rate);
+    if constexpr (Kind == pair_kind::contact && dashpot_pulls<Damping>)
+        return select(normal < none, normal + drag, normal);
+    else if constexpr (Kind == pair_kind::contact)
+        return select(normal < none, min(normal + drag, none), normal);
+    else
+        return normal + drag;
+}
+
+/// Asks memory for the pairs, and in space for their second particles, that come `ahead` packs later.
+/// \param pack_after callable: number of the pack that is read when pack p would be
+template <class Table, class Real, int Dim, class After>
+void prefetch_pairs(Table const& table, particle_store<Real, Dim> const& store, std::size_t p, std::size_t ahead,
+                    After const& pack_after) noexcept {
+    constexpr int W = Table::width;
+    table.prefetch(pack_after(p + ahead));
+    if constexpr (Dim == 3)
+        if (std::size_t const q = pack_after(p + ahead / 2); q < table.packs()) {
+            std::uint32_t const* seconds = table.j_records() + q * W;
+            prefetch_records<W>(store.bodies().data(), seconds);
+            for (int k = 0; k < W; ++k) __builtin_prefetch(store.surface_speeds().data() + seconds[k] / 2);
+        }
+}
+
+/// Where the pair loop writes the forces of one chunk.
+template <class Real>
+struct chunk_output {
+    Real* forces;             ///< where the chunk's forces begin
+    force_offsets::row offsets; ///< of the packs' forces there; only `kept` and `first` are read
+    Real* normals;            ///< normal forces, by slot; nullptr: they are not written
+    Real* moments;            ///< moments on the first of each pair, rotation_dim numbers a slot; laws with moments only
+};
+
+/// Overlaps of contacts that the pair loop reports, over the smaller radius, 1.
+template <class Real>
+struct overlap_limits {
+    Real deepest = 1; ///< deeper than a run may go
+    Real watched = 1; ///< for laws that stiffen: deeper than the time step was chosen for
+};
+
+/// Whether a pair of a pack has failed, or a contact of it exceeds a limit.
+template <pair_kind Kind, class Law, class Answer, class View, class State, class Real>
+bool has_event([[maybe_unused]] Answer const& answer, [[maybe_unused]] View const& view, [[maybe_unused]] State const& state,
+               [[maybe_unused]] overlap_limits<Real> const& limits) noexcept {
+    if constexpr (Kind == pair_kind::bond) {
+        return any(answer.broken);
+    } else {
+        using lanes = std::remove_cvref_t<decltype(view.pair.radii)>;
+        auto const& motion = view.frame.motion;
+        auto smaller = min(view.pair.radius_i, view.pair.radius_j);
+        auto deep = motion.distance + smaller * lanes(limits.deepest) < view.pair.radii;
+        if constexpr (stiffens<Law, View::dim>)
+            return any(deep || motion.distance + smaller * lanes(limits.watched) < touching_distance_of(motion, state));
+        else
+            return any(deep);
+    }
+}
 
 /// Forces and new histories of one chunk of pairs: kinematics, law, history, forces.
 ///
 /// The law's formula is instantiated with packs here; this loop is the only one over pairs in the step.
-/// \tparam WithEnergy also sums up energies (the sums cost time, so they are only made when something asks)
-/// \param forces where the chunk's places begin
-/// \param places how many there are, and which is the first pack's; only `kept` and `first` are read
-/// \param normals where the normal forces go, by slot; nullptr: nowhere
-/// \param moments where the moments on the first of each pair go, rotation_dim numbers a slot; laws with moments only
-/// \param ahead what else to ask the memory for meanwhile
-/// \param on_event called as on_event(pack) after a pack in which a bond has failed, or two particles in contact overlap
-///        by more than `deepest` or `watched`; rare
-/// \param deepest over the smaller radius, 1
-/// \param watched of laws that stiffen: the overlap that a contact is not to exceed unnoticed, over the smaller radius, 1
-template <pair_kind Kind, bool WithEnergy, class Law, class Damping, class Domain, class Real, int Dim, class OnEvent>
+/// \tparam WithEnergy sum up energies too
+/// \tparam Commit store the new histories and report events; false: forces alone, for a trial
+/// \param ahead prefetches what the next chunks read
+/// \param on_event called as on_event(pack) after a pack in which a bond has failed, or a contact exceeds a limit; rare
+template <pair_kind Kind, bool WithEnergy, bool Commit, class Law, class Damping, class Domain, class Real, int Dim, class OnEvent>
 [[gnu::noinline, gnu::flatten]] void evaluate_chunk(pair_table<Law, Real, Dim>& table, int chunk,
                                       parameter_table<Law, Real> const& parameters,
                                       typename Damping::parameters const& damping,
-                                      particle_store<Real, Dim> const& store, Real time_step, Real* forces,
-                                      force_offsets::row const& places, Real* normals,
-                                      [[maybe_unused]] Real* moments, prefetcher::plan& ahead, pair_energy& energy,
-                                      OnEvent const& on_event, [[maybe_unused]] Real deepest = Real(1),
-                                      [[maybe_unused]] Real watched = Real(1)) {
+                                      particle_store<Real, Dim> const& store, Real time_step,
+                                      chunk_output<Real> const& out, prefetcher::plan& ahead, pair_energy& energy,
+                                      [[maybe_unused]] overlap_limits<Real> const& limits,
+                                      [[maybe_unused]] OnEvent const& on_event) {
     using lanes = typename pair_table<Law, Real, Dim>::lanes;
     constexpr int W = lanes::width;
     constexpr std::size_t stride = 4 * pair_forces<Real, Dim>::records_per_pair;
     lanes const dt(time_step);
     lanes stored(Real(0)), dissipated(Real(0)), damped(Real(0));
     auto& states = table.states();
-    std::size_t place = places.first, kept = places.kept;
+    Real* const forces = out.forces;
+    std::size_t offset = out.offsets.first, kept = out.offsets.kept;
     typename Law::template parameters<lanes> law{};
     std::int32_t loaded = -2;
-    constexpr std::size_t packs_ahead = 16;
-    bool const fetches = ahead.any;
+    bool const prefetches = ahead.any;
     auto const load_pair = [&](std::size_t p) {
         auto pair = load_relative<lanes>(store, table.i_records() + p * W, table.j_records() + p * W);
         if constexpr (Domain::periodic) pair.arm = store.period().shortest(pair.arm);
@@ -208,17 +277,12 @@ template <pair_kind Kind, bool WithEnergy, class Law, class Damping, class Domai
     if (looks_ahead && first < end) next = load_pair(first);
     for (std::size_t p = first; p < end; ++p) {
         std::size_t const slot = p * W;
-        if (fetches) {
+        if (prefetches) {
             ahead.prefetch();
-            table.prefetch(pack_after(p + packs_ahead));
-            if constexpr (Dim == 3)
-                if (std::size_t const q = pack_after(p + packs_ahead / 2); q < table.packs()) {
-                    std::uint32_t const* seconds = table.j_records() + q * W;
-                    prefetch_records<W>(store.bodies().data(), seconds);
-                    for (int k = 0; k < W; ++k) __builtin_prefetch(store.surface_speeds().data() + seconds[k] / 2);
-                }
+            prefetch_pairs(table, store, p, 16, pack_after);
         }
-        auto [pair, frame] = looks_ahead ? next : load_pair(p);
+        auto const view = looks_ahead ? next : load_pair(p);
+        auto const& frame = view.frame;
         if constexpr (looks_ahead) next = load_pair(p + 1 < end ? p + 1 : p);
         auto state = states.load(p);
         if constexpr (Dim == 3 && requires { state.shear_force; }) state.shear_force = frame.rotate_with_pair(state.shear_force);
@@ -227,52 +291,25 @@ template <pair_kind Kind, bool WithEnergy, class Law, class Damping, class Domai
             parameters.template load<lanes>(law, row, table.parameter() + slot);
             loaded = row;
         }
-        auto answer = evaluate_law<Law>(law, frame, state, pair, store, table.i_records() + slot, table.j_records() + slot, dt);
+        auto answer = evaluate_law<Law>(law, frame, state, view.pair, store, table.i_records() + slot, table.j_records() + slot, dt);
         auto normal = answer.normal_force;
         if constexpr (Damping::acts_on_pairs) {
-            lanes mass_i, mass_j;
-            for (int k = 0; k < W; ++k) {
-                mass_i.v[k] = store.masses()[table.i(slot + std::size_t(k))];
-                mass_j.v[k] = store.masses()[table.j(slot + std::size_t(k))];
-            }
-            auto drag = Damping::pair_force(damping, dashpot_stiffness<Law>(law, frame.motion, state), mass_i, mass_j,
-                                            frame.motion.normal_rate);
-            if constexpr (Kind == pair_kind::contact && dashpot_pulls<Damping>)
-                normal = select(normal < lanes(Real(0)), normal + drag, normal);
-            else if constexpr (Kind == pair_kind::contact)
-                normal = select(normal < lanes(Real(0)), min(normal + drag, lanes(Real(0))), normal);
-            else
-                normal = normal + drag;
+            normal = with_dashpots<Kind, Law, Damping>(answer.normal_force, damping, law, frame, state, table, store, slot);
             if constexpr (WithEnergy) damped += (normal - answer.normal_force) * frame.motion.normal_rate * dt;
         }
-        states.store(p, answer.history);
-        store_pair_forces<Real, Dim>(forces + stride * W * place, frame.force(normal, answer.shear_force),
+        if constexpr (Commit) states.store(p, answer.history);
+        store_pair_forces<Real, Dim>(forces + stride * W * offset, frame.force(normal, answer.shear_force),
                                      frame.torque_per_radius(answer.shear_force), normal);
-        if (++place == kept) place = 0;
-        if (normals) normal.store(normals + slot);
-        if constexpr (carries_moment<Law>) {
-            auto moment = frame.moment(answer);
-            for (int k = 0; k < W; ++k)
-                for (int axis = 0; axis < rotation_dim<Dim>; ++axis)
-                    moments[(slot + std::size_t(k)) * rotation_dim<Dim> + std::size_t(axis)] = moment[axis][k];
-        }
-        if constexpr (WithEnergy) {
+        if (++offset == kept) offset = 0;
+        if (out.normals) normal.store(out.normals + slot);
+        if constexpr (carries_moment<Law>) store_moments(out.moments, slot, frame.moment(answer));
+        if constexpr (WithEnergy && states_energies<Law, Dim>) {
             stored += answer.stored_energy;
             dissipated += answer.dissipated_energy;
         }
-        if constexpr (Kind == pair_kind::bond) {
-            if (any(answer.broken)) [[unlikely]]
+        if constexpr (Commit)
+            if (has_event<Kind, Law>(answer, view, state, limits)) [[unlikely]]
                 on_event(p);
-        } else if constexpr (stiffens<Law, Dim>) {
-            auto smaller = min(pair.radius_i, pair.radius_j);
-            auto deep = frame.motion.distance + smaller * lanes(deepest) < pair.radii ||
-                        frame.motion.distance + smaller * lanes(watched) < touching_distance_of(frame.motion, state);
-            if (any(deep)) [[unlikely]]
-                on_event(p);
-        } else {
-            if (any(frame.motion.distance + min(pair.radius_i, pair.radius_j) * lanes(deepest) < pair.radii)) [[unlikely]]
-                on_event(p);
-        }
     }
     if constexpr (WithEnergy) energy = {double(sum(stored)), double(sum(dissipated)), double(sum(damped)), 0};
 }

@@ -131,8 +131,8 @@ public:
                 energy.damped += double((normal_force - answer.normal_force) * frame.motion.normal_rate * time_step);
             }
             n.state = answer.history;
-            energy.stored += double(answer.stored_energy);
-            energy.dissipated += double(answer.dissipated_energy);
+            energy.stored += stored_energy_of(answer);
+            if constexpr (states_energies<ContactLaw, Dim>) energy.dissipated += double(answer.dissipated_energy);
             auto const force = frame.force(normal_force, answer.shear_force);
             auto const torque = frame.torque_per_radius(answer.shear_force);
             std::size_t const row = n.particle * pair_forces<Real, Dim>::records_per_pair;

@@ -84,9 +84,18 @@ concept law_evaluate = requires(typename Law::template parameters<T> const& para
     { Law::evaluate(parameters, motion, history).normal_force } -> std::convertible_to<T>;
     { Law::evaluate(parameters, motion, history).shear_force } -> std::convertible_to<vec<T, shear_dim<Dim>>>;
     { Law::evaluate(parameters, motion, history).history } -> std::convertible_to<typename Law::template history<T, Dim>>;
-    { Law::evaluate(parameters, motion, history).stored_energy } -> std::convertible_to<T>;
-    { Law::evaluate(parameters, motion, history).dissipated_energy } -> std::convertible_to<T>;
 };
+/// Both energies, or none of them: force_response.
+template <class Law, int Dim, class T>
+concept law_energies =
+    !requires(typename Law::template parameters<T> const& parameters, pair_motion<T, Dim> const& motion,
+              typename Law::template history<T, Dim> const& history) {
+        Law::evaluate(parameters, motion, history).stored_energy;
+    } || requires(typename Law::template parameters<T> const& parameters, pair_motion<T, Dim> const& motion,
+                  typename Law::template history<T, Dim> const& history) {
+        { Law::evaluate(parameters, motion, history).stored_energy } -> std::convertible_to<T>;
+        { Law::evaluate(parameters, motion, history).dissipated_energy } -> std::convertible_to<T>;
+    };
 template <class Law, int Dim, class T>
 concept law_broken = requires(typename Law::template parameters<T> const& parameters, pair_motion<T, Dim> const& motion,
                               typename Law::template history<T, Dim> const& history) {
@@ -131,7 +140,7 @@ concept law_rotational_stiffness =
     };
 
 template <class Law, int Dim, class T>
-concept law_formula = law_evaluate<Law, Dim, T> && law_moments<Law, Dim, T>;
+concept law_formula = law_evaluate<Law, Dim, T> && law_energies<Law, Dim, T> && law_moments<Law, Dim, T>;
 
 template <class Law, int Dim>
 concept pair_law = law_material<Law> && law_parameters<Law> && law_history<Law, Dim> && law_scalar_parameters<Law> &&
@@ -148,12 +157,13 @@ concept pair_law = law_material<Law> && law_parameters<Law> && law_history<Law, 
 ///   - `history<T, Dim>`: an aggregate of T (and vec of T) only. `initial<T, Dim>(distance, touching_distance)` returns
 ///     the history at zero force. The engine rotates a member `shear_force` with the pair. A pair stays in the table
 ///     while a member `touching_distance` exceeds the sum of the radii; else it stays up to that sum plus a skin;
-///   - `evaluate(parameters<T>, pair_motion<T, Dim>, history<T, Dim>) -> pair_response`: the formula;
+///   - `evaluate(parameters<T>, pair_motion<T, Dim>, history<T, Dim>) -> pair_response`, or force_response: the formula;
 ///   - `stiffness(parameters)`: the largest tangent stiffness of the normal force, N/m. A law whose tangent grows with
 ///     the overlap has `stiffness(parameters, pair_motion, history)` instead: see dashpot_stiffness() and
 ///     require_stated_stiffness();
 ///   - `hand_over(parameters, pair_motion, normal_force, shear_force)`: the history of a contact that takes over these
 ///     forces from a bond that has just failed in shear.
+/// law_defaults offers all but `material`, `parameters`, `history` and the formula.
 template <class Law, int Dim>
 concept contact_law = detail::pair_law<Law, Dim> && detail::law_hand_over<Law, Dim>;
 

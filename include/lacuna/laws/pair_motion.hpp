@@ -39,6 +39,14 @@ struct pair_response {
     T dissipated_energy;                ///< energy dissipated in this step (sliding, crushing), J
 };
 
+/// What a law answers that states no energies: the ledger then lacks its strain energy and dissipation, and says so.
+template <class T, int Dim, class H>
+struct force_response {
+    T normal_force;                     ///< N, positive in tension
+    vec<T, shear_dim<Dim>> shear_force; ///< N, on particle i
+    H history;                          ///< what the law remembers for the next step
+};
+
 /// The result of a bond law's formula: it also says whether, and in which mode, the bond fails in this step.
 template <class T, int Dim, class H>
 struct bond_response : pair_response<T, Dim, H> {
@@ -69,6 +77,22 @@ struct moment_stiffness {
 ///   - `rotational_stiffness<Dim>(parameters, radius_i, radius_j, distance) -> moment_stiffness`.
 template <class Law>
 inline constexpr bool carries_moment = requires { requires Law::carries_moment; };
+
+/// Whether a law states the energies of its pairs.
+template <class Law, int Dim>
+inline constexpr bool states_energies = requires(typename Law::template parameters<double> const& parameters,
+                                                 pair_motion<double, Dim> const& motion,
+                                                 typename Law::template history<double, Dim> const& history) {
+    Law::evaluate(parameters, motion, history).stored_energy;
+};
+/// Elastic energy that a law answers, J; 0 where it states none.
+template <class Answer>
+double stored_energy_of(Answer const& answer) noexcept {
+    if constexpr (requires { answer.stored_energy; })
+        return double(answer.stored_energy);
+    else
+        return 0;
+}
 
 /// The normal stiffness from which a dashpot's critical damping follows, N/m: `stiffness(parameters, pair_motion,
 /// history)` in the current state if the law has it, else the constant `stiffness(parameters)`.

@@ -97,6 +97,15 @@ public:
             }
     }
 
+    /// A force on particle k alone: minus its derivative by the position (or velocity), by rows, N/m (N s/m). It need not be
+    /// symmetric: Gershgorin's theorem holds for any matrix.
+    void add_matrix(std::size_t k, std::array<point, std::size_t(Dim)> const& derivative) {
+        for (int a = 0; a < Dim; ++a)
+            for (int b = 0; b < Dim; ++b)
+                block_[k][std::size_t(a * freedoms + b)] += derivative[std::size_t(a)][b] * root_mobility_[k][std::size_t(a)] *
+                                                            root_mobility_[k][std::size_t(b)];
+    }
+
     /// The upper bound of omega_max, rad/s; 0 without any stiffness.
     double frequency() const {
         constexpr int scales = 7; // 0.5 to 4

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <lacuna/core/standard.hpp>
 
@@ -33,8 +34,12 @@ struct energy_ledger {
     double prescribed = 0;     ///< part of external: work of prescribed motion, including velocities set by the caller
     double fluid_work = 0;     ///< internal exchange: work of the fluid's pressure on the particles
 
-    /// The error of the balance: energy present or spent, minus energy supplied.
+    /// False: a law of the model states no energies, so that strain and friction lack its part.
+    bool complete = true;
+
+    /// The error of the balance: energy present or spent, minus energy supplied; not a number for an incomplete ledger.
     double residual() const noexcept {
+        if (!complete) return std::numeric_limits<double>::quiet_NaN();
         return kinetic + strain + friction + damping + fracture + fluid_storage + fluid_viscous + fluid_outflow +
                fluid_remesh - external - initial;
     }

@@ -118,6 +118,7 @@ std::string model_text() {
     return "dim " + std::to_string(Model::dim) + ", " + type_text<real>() + ", " +
            type_text<typename Model::contact_law>() + ", " + type_text<typename Model::bond_law>() + ", " +
            type_text<typename Model::damping>() + ", " + type_text<typename Model::flow>() + ", " +
+           (std::is_same_v<typename Model::forces, no_forces> ? "" : type_text<typename Model::forces>() + ", ") +
            type_text<typename Model::integrator>() + ", packs of " + std::to_string(native_width<real>);
 }
 

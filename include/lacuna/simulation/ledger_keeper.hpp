@@ -35,10 +35,13 @@ public:
     /// \param before, dt length of the step before and of this one, s
     /// \param flow nullptr without fluid
     /// \param wall_power of moving walls, with their velocities before and after, W
+    /// \param complete whether all laws state their energies
+    /// \param own_power of the model's own forces, the same, W
     template <class Flow>
     void keep(pair_energy const& pairs, std::array<double, 2> const& fracture,
               std::span<motion_report<Real> const> reports, double before, double dt, Flow const* flow,
-              std::array<double, 2> const& wall_power = {}) {
+              std::array<double, 2> const& wall_power = {}, std::array<double, 2> const& own_power = {},
+              bool complete = true) {
         motion_report<Real> total;
         for (auto const& r : reports) {
             total.kinetic += r.kinetic;
@@ -52,14 +55,15 @@ public:
         }
         total.held_before += wall_power[0];
         total.held_after += wall_power[1];
-        total.load_before += wall_power[0];
-        total.load_after += wall_power[1];
+        total.load_before += wall_power[0] + own_power[0];
+        total.load_after += wall_power[1] + own_power[1];
         bool const first = !open_;
         if (first) {
             ledger_ = {};
             work_ahead_ = held_ahead_ = damping_ahead_ = 0;
             open_ = true;
         }
+        ledger_.complete = complete;
         ledger_.kinetic = total.kinetic;
         ledger_.rotation = total.rotation;
         ledger_.strain = pairs.stored;

@@ -2,13 +2,15 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
+#include <cstddef>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include <lacuna/interactions/law_stiffness.hpp>
-#include <lacuna/model.hpp>
 #include <lacuna/motion/stable_step.hpp>
+#include <lacuna/simulation/force_terms.hpp>
+#include <lacuna/simulation/simulation_state.hpp>
 
 namespace lacuna {
 
@@ -22,26 +24,6 @@ struct time_step_limits {
     double critical() const noexcept { return rigorous < flow ? rigorous : flow; }
 };
 
-namespace detail {
-
-/// A pore resists a change of its volume: K_f / V_p times the square of it.
-template <int Dim, class Store, class Flow>
-void add_fluid_stiffness(frequency_bound<Dim>& bound, Store const& store, Flow const& flow) {
-    auto const& net = flow.network();
-    for (std::size_t p = 0; p < net.pores(); ++p) {
-        auto const tractions = flow.pore_tractions(p, store.positions(), store.radii().data());
-        std::array<std::size_t, std::size_t(Dim) + 1> who{};
-        std::array<typename frequency_bound<Dim>::gradient, std::size_t(Dim) + 1> g{};
-        for (std::size_t c = 0; c < who.size(); ++c) {
-            who[c] = std::size_t(net.corner[c][p]);
-            for (int axis = 0; axis < Dim; ++axis) g[c][std::size_t(axis)] = double(tractions[c][axis]);
-        }
-        bound.add(who, g, flow.settings().bulk_modulus / double(net.volume[p]));
-    }
-}
-
-} // namespace detail
-
 /// What a step has to stay below for the fluid, s; see time_step_limits::flow.
 template <class Flow>
 double flow_limit(Flow const& flow) {
@@ -52,64 +34,61 @@ double flow_limit(Flow const& flow) {
 template <int Dim>
 struct limit_scratch {
     frequency_bound<Dim> stiff, viscous;
+    std::vector<pair_tangent<Dim>> with_moments;
 };
 
-/// Limits of the time step of the given parts in their present state. Counted are bonds, contacts of
-/// particles and walls that touch or may under an assumption, their dashpots, other damping, and the fluid.
-/// \param flow nullptr without fluid
-template <class Model, class Store, class Interactions, class Walls, class Flow>
-time_step_limits find_limits(Store const& store, Interactions const& interactions, Walls const& walls, Flow const* flow,
-                             typename Model::damping::parameters const& damping, contact_assumption const& assumed,
-                             limit_scratch<Model::dim>& scratch) {
-    using damping_type = typename Model::damping;
-    using point = vec<double, Model::dim>;
-    constexpr bool dashed = damping_type::acts_on_pairs;
-    [[maybe_unused]] auto const dashpot = [&](double stiffness, double mass_i, double mass_j) {
-        if constexpr (dashed) return damping_type::pair_force(damping, stiffness, mass_i, mass_j, 1.0);
-        return 0.0;
-    };
-    auto &bound = scratch.stiff, &dashpots = scratch.viscous;
-    bound.reset(store.size());
-    dashpots.reset(dashed ? store.size() : 0);
-    for (std::size_t k = 0; k < store.size(); ++k)
-        for (int axis = 0; axis < frequency_bound<Model::dim>::freedoms; ++axis) {
-            bound.set_mobility(k, axis, double(store.mobility(k, axis)));
-            if constexpr (dashed) dashpots.set_mobility(k, axis, double(store.mobility(k, axis)));
-        }
+namespace detail {
+/// Adds bonds and contacts to the bounds: first what acts at their points of contact, then the moments.
+/// \return the paper's eq. 9 without its factor: the shortest sqrt(m / k), s
+template <class State, class Scratch>
+double add_pairs(State const& s, contact_assumption const& assumed, Scratch& scratch) {
+    using damping = typename State::damping_type;
     double wave = std::numeric_limits<double>::infinity();
-    interactions.for_each_stiffness(store, assumed, [&](std::size_t i, std::size_t j, point const& normal, double kn,
-                                                        double ks, double prestress, double li, double lj) {
-        bound.add_pair(i, j, normal, kn, ks, prestress, li, lj);
-        double const mass_i = double(store.mass(i)), mass_j = double(store.mass(j));
-        if constexpr (dashed) dashpots.add_pair(i, j, normal, dashpot(kn, mass_i, mass_j), 0, 0, li, lj);
-        wave = std::min(wave, std::sqrt(std::min(mass_i, mass_j) / kn));
+    scratch.with_moments.clear();
+    s.pairs.for_each_pair_tangent(s.store, assumed, [&](auto const& t) {
+        scratch.stiff.add_pair(t.i, t.j, t.normal, t.normal_stiffness, t.shear_stiffness, t.prestress, t.lever_i, t.lever_j);
+        double const mass_i = double(s.store.mass(t.i)), mass_j = double(s.store.mass(t.j));
+        if constexpr (damping::acts_on_pairs)
+            scratch.viscous.add_pair(t.i, t.j, t.normal,
+                                     damping::pair_force(s.settings.damping, t.normal_stiffness, mass_i, mass_j, 1.0), 0, 0,
+                                     t.lever_i, t.lever_j);
+        wave = std::min(wave, std::sqrt(std::min(mass_i, mass_j) / t.normal_stiffness));
+        if (t.moments.bending > 0 || t.moments.twisting > 0) scratch.with_moments.push_back(t);
     });
-    interactions.for_each_moment_stiffness(
-        store, assumed, [&](std::size_t i, std::size_t j, point const& normal, moment_stiffness<double> const& k) {
-            bound.add_rotational(i, j, normal, k.bending, k.twisting);
-        });
-    walls.for_each_stiffness(store, assumed, [&](std::size_t k, point const& normal, double kn, double ks, double lever) {
-        bound.add_support(k, normal, kn, ks, lever);
-        double const twice = 2 * double(store.mass(k));
-        if constexpr (dashed) dashpots.add_support(k, normal, dashpot(kn, twice, twice), 0, lever);
-    });
-    walls.for_each_moment_stiffness(
-        store, assumed, [&](std::size_t k, point const& normal, moment_stiffness<double> const& stiffness) {
-            bound.add_rotational(k, normal, stiffness.bending, stiffness.twisting);
-        });
+    for (auto const& t : scratch.with_moments)
+        scratch.stiff.add_rotational(t.i, t.j, t.normal, t.moments.bending, t.moments.twisting);
+    return wave;
+}
+} // namespace detail
+
+/// Limits of the time step in the present state. Counted are bonds, contacts of particles and walls that touch or may under an
+/// assumption, their dashpots, other damping, the fluid, and the model's own forces.
+/// \param time of the positions, s
+template <class Model>
+time_step_limits find_limits(simulation_state<Model> const& s, contact_assumption const& assumed, double time,
+                             limit_scratch<Model::dim>& scratch) {
+    using damping = typename Model::damping;
+    bool const viscous = damping::acts_on_pairs || s.own_forces.active();
+    scratch.stiff.reset(s.store.size());
+    scratch.viscous.reset(viscous ? s.store.size() : 0);
+    for (std::size_t k = 0; k < s.store.size(); ++k)
+        for (int axis = 0; axis < frequency_bound<Model::dim>::freedoms; ++axis) {
+            scratch.stiff.set_mobility(k, axis, double(s.store.mobility(k, axis)));
+            if (viscous) scratch.viscous.set_mobility(k, axis, double(s.store.mobility(k, axis)));
+        }
     time_step_limits result;
-    result.wave_limit = wave;
+    result.wave_limit = detail::add_pairs(s, assumed, scratch);
+    force_terms::add_stiffness(s, assumed, time, scratch.stiff, scratch.viscous);
     result.mean_throat_limit = result.flow = std::numeric_limits<double>::infinity();
     if constexpr (has_fluid<Model>)
-        if (flow) {
-            detail::add_fluid_stiffness(bound, store, *flow);
+        if (auto const* flow = s.fluid.get()) {
             if constexpr (requires { flow->mean_throat_limit(); }) result.mean_throat_limit = double(flow->mean_throat_limit());
             result.flow = flow_limit(*flow);
         }
-    double const against_motion = 1 + std::fabs(damping_type::particle_force(damping, 1.0, -1.0));
+    double const against_motion = 1 + std::fabs(damping::particle_force(s.settings.damping, 1.0, -1.0));
     double drag_rate = 0;
-    if constexpr (requires { damping_type::drag_rate(damping); }) drag_rate = damping_type::drag_rate(damping);
-    result.rigorous = bound.time_step(dashpots, against_motion, drag_rate);
+    if constexpr (requires { damping::drag_rate(s.settings.damping); }) drag_rate = damping::drag_rate(s.settings.damping);
+    result.rigorous = scratch.stiff.time_step(scratch.viscous, against_motion, drag_rate);
     return result;
 }
 

@@ -81,6 +81,8 @@ constexpr bool explain_law() {
                              "pair_motion<T, Dim> const&, history<T, Dim> const&)");
     else if constexpr (!law_evaluate<Law, Dim, law_pack> || !law_evaluate<Law, Dim, law_dual>)
         static_assert(never, "the law's evaluate() must take every scalar type T: packs and dual numbers too");
+    else if constexpr (!law_energies<Law, Dim, double>)
+        static_assert(never, "the law's answer needs both stored_energy and dissipated_energy, T, or none: force_response");
     else if constexpr (!law_moments<Law, Dim, double> || !law_moments<Law, Dim, law_pack> || !law_moments<Law, Dim, law_dual>)
         static_assert(never, "a law that carries moments needs: bending_moment in its history, and evaluate(parameters<T>, "
                              "pair_motion<T, Dim>, pair_rotation<T, Dim>, history<T, Dim>) that answers with_moments");
@@ -158,6 +160,22 @@ constexpr bool explain_flow() {
     }
     return true;
 }
+template <class Policy, int Dim, class Real>
+constexpr bool explain_forces() {
+    constexpr bool never = std::is_void_v<Policy>;
+    if constexpr (!forces_parameters<Policy>)
+        static_assert(never, "the forces need: struct parameters { ...; void validate(std::string const& name) const; }, default "
+                             "constructible; see body_force");
+    else if constexpr (!is_callable_force<Policy, Dim>)
+        static_assert(never, "a body force must be callable as: vec<double, dim> force(acted_particle<dim> const&) const");
+    else if constexpr (!forces_term<Policy, Real, Dim>)
+        static_assert(never, "the forces need: template <class Real, int Dim> class term, copyable, made from parameters, with "
+                             "bool active() const");
+    else if constexpr (!forces_members<Policy, Real, Dim>)
+        static_assert(never, "the forces' term needs: add_forces(particle_store<Real, Dim> const&, double time, int threads, "
+                             "record_column<Real>&), vec<Real, Dim> force(std::size_t) const, double power(store) const");
+    return true;
+}
 template <class Policy, int Dim>
 constexpr bool explain_integrator() {
     constexpr bool fits = integrator<Policy, Dim>;
@@ -202,6 +220,7 @@ concept has_all_slots = requires {
     typename M::bond_law;
     typename M::damping;
     typename M::flow;
+    typename M::forces;
     typename M::integrator;
     typename M::domain;
     typename M::template search<double, 2>;

@@ -35,6 +35,7 @@ struct simulation_parameters {
     typename Model::damping::parameters damping{};
     std::vector<wall<typename Model::contact_law, dim>> walls{};
     typename Model::flow::parameters flow{};
+    typename Model::forces::parameters forces{};    ///< of the model's own, see body_force
     remesh_parameters remeshing{};                  ///< of the pores, as the body deforms; models with flow
     double time_step = 0; ///< s; 0: safety times the critical time step. A given one that contacts make unsafe ends the run
     double safety = 0.2;                            ///< fraction of the critical time step
@@ -77,6 +78,7 @@ struct simulation_parameters {
         damping.validate("damping");
         for (std::size_t w = 0; w < walls.size(); ++w) walls[w].validate("walls[" + std::to_string(w) + "]");
         flow.validate("flow");
+        forces.validate("forces");
         remeshing.validate("remeshing");
         if (dim == 3 && remeshing.rule != remesh_rule::never)
             refuse("remeshing.rule", "when_needed", "never: in space pores keep their mesh");

@@ -45,7 +45,7 @@ public:
         simulation copy = this->simulated();
         // More than 1000 fluid steps per particle step take too long here.
         if constexpr (lacuna::has_fluid<Model>)
-            if (scenario_.water && !scenario_.water->implicit && copy.time_step() > 1000 * copy.flow().mean_throat_limit())
+            if (scenario_.water && !scenario_.water->implicit && copy.resolve_time_step() > 1000 * copy.flow().mean_throat_limit())
                 throw other_kind();
         step_facts f;
         try {
@@ -105,7 +105,7 @@ private:
                 momenta += std::sqrt(2 * sim.mass(k) * f.energy);
                 for (int axis = 0; axis < dim; ++axis) reach = std::max(reach, std::fabs(sim.position(k)[axis]) + sim.radius(k));
             }
-            double const critical = sim.limits().critical(), step = sim.time_step();
+            double const critical = sim.limits().critical(), step = sim.resolve_time_step();
             f.share = std::max(f.share, step / critical);
             double const stiffness = std::max(4 * heaviest / (critical * critical), stated_stiffness());
             double const pairs = double(sim.size()) * (dim == 2 ? 4 : 8) + double(scenario.joints.pairs.size());

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// refused: observer
+// refused: an observer needs one of on_start
 
 #include <lacuna/simulation.hpp>
 
 struct watcher {
-#ifdef LACUNA_GOOD
-    static constexpr lacuna::stage stages = lacuna::stage::end;
-#endif
     template <class Simulation>
+#ifdef LACUNA_GOOD
     void on_end(Simulation const&) {}
+#else
+    void on_finish(Simulation const&) {}
+#endif
 };
 
 void use(lacuna::simulation<lacuna::default_model<2>>& run) { run.run(1, watcher{}); }

@@ -69,41 +69,41 @@ public:
     int chunks() const noexcept { return rows_.chunks(); }
     Real const* column() const noexcept { return forces_.of(0); }
 
-    /// \name Places of bonds (Which = 0) and contacts (Which = 1)
+    /// \name Positions of the forces of bonds and contacts
     /// \{
-    template <int Which, class Table>
+    template <pair_kind Kind, class Table>
     force_offsets::row places(Table const& table, int chunk) const noexcept {
-        return places_[Which].of_chunk(table, chunk);
+        return places_[std::size_t(Kind)].of_chunk(table, chunk);
     }
     /// Where the places of a chunk begin.
-    template <int Which, class Table>
+    template <pair_kind Kind, class Table>
     Real* begin(Table const& table, int chunk) noexcept {
-        return forces_.of((offset<Which>() + places<Which>(table, chunk).begin) * width);
+        return forces_.of((offset<Kind>() + places<Kind>(table, chunk).begin) * width);
     }
     /// The force of one pair.
-    template <int Which>
+    template <pair_kind Kind>
     Real* of(int chunk, std::size_t slot) noexcept {
-        return forces_.of(place_of<Which>(chunk, slot));
+        return forces_.of(place_of<Kind>(chunk, slot));
     }
     /// Offset in column() of the force in a slot of a table; -1 when forces are not kept.
-    template <int Which>
+    template <pair_kind Kind>
     std::int32_t find(int chunk, std::int32_t slot) const noexcept {
         if (transient_) return -1;
-        return std::int32_t(place_of<Which>(chunk, std::size_t(slot))) * force_gather<Real, Dim>::reals_per_pair;
+        return std::int32_t(place_of<Kind>(chunk, std::size_t(slot))) * force_gather<Real, Dim>::reals_per_pair;
     }
     /// \}
 
     /// Normal forces of all pairs, N, positive in tension, see keep_normals(); the first is 0.
     Real const* normals() const noexcept { return normals_.data(); }
     /// Where the normal forces of a table's slots begin; nullptr when they are not kept.
-    template <int Which>
+    template <pair_kind Kind>
     Real* normals_of() noexcept {
-        return normals_kept_ ? normals_.data() + width + (Which == 0 ? 0 : bond_slots_) : nullptr;
+        return normals_kept_ ? normals_.data() + width + (Kind == pair_kind::bond ? 0 : bond_slots_) : nullptr;
     }
     /// Place in normals() of a slot of a table.
-    template <int Which>
+    template <pair_kind Kind>
     std::int32_t find_normal(std::int32_t slot) const noexcept {
-        return std::int32_t(width + (Which == 0 ? 0 : bond_slots_)) + slot;
+        return std::int32_t(width + (Kind == pair_kind::bond ? 0 : bond_slots_)) + slot;
     }
 
     /// Whether forces are not kept but for their sums: keep_force_sums() is due for each chunk before for_force_sums() is called.
@@ -184,13 +184,13 @@ private:
         bond_slots_ = bonds.slots();
         resize_with_room(normals_, width + bond_slots_ + contacts.slots());
     }
-    template <int Which>
+    template <pair_kind Kind>
     std::size_t offset() const noexcept {
-        return Which == 0 ? 0 : places_[0].count();
+        return Kind == pair_kind::bond ? 0 : places_[0].count();
     }
-    template <int Which>
+    template <pair_kind Kind>
     std::size_t place_of(int chunk, std::size_t slot) const noexcept {
-        return (offset<Which>() + places_[Which](chunk, slot / width)) * width + slot % width;
+        return (offset<Kind>() + places_[std::size_t(Kind)](chunk, slot / width)) * width + slot % width;
     }
 
     pair_forces<Real, Dim> forces_;

@@ -7,6 +7,9 @@
 
 namespace lacuna {
 
+/// The two kinds of pairs that a table holds.
+enum class pair_kind { bond, contact };
+
 /// Forces of pairs, one record (2D: F_x, F_y, torque per radius, normal force) or two (3D: force and normal force;
 /// torque per radius and 0) each.
 template <class Real, int Dim>

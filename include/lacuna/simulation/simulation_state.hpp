@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include <lacuna/interactions/interactions.hpp>
+#include <lacuna/interactions/interactions_archive.hpp>
+#include <lacuna/interactions/walls.hpp>
+#include <lacuna/loads/load_set.hpp>
+#include <lacuna/loads/prescribed_motion.hpp>
+#include <lacuna/loads/rigid_plates.hpp>
+#include <lacuna/loads/wall_drive.hpp>
+#include <lacuna/model.hpp>
+#include <lacuna/particles/spatial_order.hpp>
+#include <lacuna/simulation/fluid_coupling.hpp>
+#include <lacuna/simulation/ledger_keeper.hpp>
+#include <lacuna/simulation/parameters.hpp>
+#include <lacuna/simulation/run_guards.hpp>
+#include <lacuna/simulation/velocity_changes.hpp>
+
+namespace lacuna {
+
+LACUNA_BEGIN_PACKS
+/// The parts of a model at one instant: particles, pairs, walls, loads, fluid, and what they exert on each other. What moves it
+/// on in time (explicit_stepper) is apart from it.
+template <class Model>
+struct simulation_state {
+    using model_type = Model;
+    using real = typename Model::real;
+    static constexpr int dim = Model::dim;
+    using point = vec<double, dim>;
+    using contact_law_type = typename Model::contact_law;
+    using bond_law_type = typename Model::bond_law;
+    using damping_type = typename Model::damping;
+    using store_type = particle_store<real, dim>;
+    using interactions_type = interactions<real, dim, contact_law_type, bond_law_type, damping_type,
+                                           typename Model::template search<real, dim>, typename Model::domain>;
+    using event_type = break_event<dim>;
+
+    /// \throws std::invalid_argument for a bad packing or parameter; see simulation
+    simulation_state(packing<real, dim> const& packing, simulation_parameters<Model> const& p) : settings(p) {
+        p.validate();
+        packing.require_bond_kinds(p.bonds.size());
+        packing.require_period(period());
+        make_particles(packing);
+        pairs = interactions_type(store, packing.bonds, p.materials, p.thickness, p.interactions, p.damping, p.bonds);
+        std::vector<typename contact_law_type::material> contact_materials;
+        for (auto const& m : p.materials) contact_materials.push_back(m.contact);
+        walls = wall_contacts<contact_law_type, damping_type, real, dim>(p.walls, contact_materials, p.thickness);
+        wall_motions = wall_drive<dim>(p.walls.size(), p.thickness);
+        own_forces = decltype(own_forces)(p.forces);
+        guards = run_guards<Model>(store, pairs, p.guards, p.damping, p.allow_unstable_step);
+        pairs.set_deepest_overlap(p.guards.largest_overlap());
+        update_walls();
+        reports.resize(std::size_t(pairs.chunks()));
+        other_forces.resize(store.size() * pair_forces<real, dim>::records_per_pair);
+    }
+
+    bool filled() const noexcept { return fluid.get() != nullptr; }
+    /// Lists anew the particles that are close to each wall.
+    void update_walls() {
+        if (walls.empty()) return;
+        walls.update(store, pairs.neighbors().settings().skin, real(settings.interactions.initial_contact_tolerance));
+    }
+    /// Gives particle k a velocity, m/s; the ledger books the change of kinetic energy as work from outside.
+    void apply_velocity_change(std::size_t k, point const& v) {
+        changes.add(store, k, false);
+        ledger.book_work(0.5 * double(store.mass(k)) * (squared_norm(v) - squared_norm(convert<double>(store.velocity(k)))));
+        store.set_velocity(k, convert<real>(v));
+    }
+    /// The same for its spin, rad/s.
+    void apply_spin_change(std::size_t k, vec<double, rotation_dim<dim>> const& w) {
+        changes.add(store, k, true);
+        ledger.book_work(0.5 * double(store.moment_of_inertia(k)) * (squared_norm(w) - squared_norm(convert<double>(store.spin(k)))));
+        store.set_spin(k, convert<real>(w));
+    }
+
+    /// Writes or reads all that steps and calls change, but for the clock.
+    template <class Archive>
+    void serialize(Archive& ar) {
+        ar(store);
+        loads.archive(ar, store.size());
+        interactions_archive::apply(ar, pairs, store);
+        walls.archive(ar, store);
+        ar(wall_motions);
+        fluid.archive(ar, store);
+        if constexpr (requires { own_forces.archive(ar, store); }) own_forces.archive(ar, store);
+        ar(events, changes, motions, plates, ledger, guards);
+        require_state(motions.fits(store.size()), "a motion prescribed to no particle");
+        require_state(plates.fit(store.size()), "a rigid plate of no particle");
+        require_state(guards.fit(store.size()), "guards that follow no particle");
+        require_state(changes.fit(store.size()), "a velocity given to no particle");
+        if constexpr (Archive::is_loading::value) {
+            reports.resize(std::size_t(pairs.chunks()));
+            fluid.map_throats(pairs);
+        }
+    }
+
+    simulation_parameters<Model> settings;
+    store_type store;
+    interactions_type pairs;
+    wall_contacts<contact_law_type, damping_type, real, dim> walls;
+    load_set<real, dim> loads;
+    fluid_coupling<Model> fluid;
+    typename Model::forces::template term<real, dim> own_forces;
+    wall_drive<dim> wall_motions;
+    prescribed_motion<dim> motions;
+    rigid_plates<real, dim> plates;
+    velocity_changes<real, dim> changes; ///< since the last step
+    record_column<real> other_forces;    ///< of all but pairs and loads, as the integrators read them
+    std::vector<motion_report<real>> reports; ///< of the last step, by chunk
+    std::vector<event_type> events;      ///< failures of the last step
+    pair_energy wall_energy;
+    std::array<double, 2> wall_power{}, own_power{}; ///< of walls, of own forces, with velocities before and after the step, W
+    ledger_keeper<real> ledger;
+    run_guards<Model> guards;
+
+private:
+    point period() const {
+        if constexpr (Model::domain::periodic)
+            return settings.domain.period;
+        else
+            return point{};
+    }
+    void make_particles(packing<real, dim> const& packing) {
+        auto const& p = settings;
+        std::vector<double> density;
+        for (auto const& m : p.materials) density.push_back(m.density);
+        auto const order = [&] {
+            if constexpr (dim == 2)
+                return strip_order(view_points(packing.position));
+            else
+                return spatial_order(view_points(packing.position));
+        }();
+        store = store_type(packing, order, density, p.mass, p.thickness);
+        if constexpr (Model::domain::periodic) {
+            static_assert(!has_fluid<Model>, "pores have no images: a model with fluid has an open domain");
+            store.set_period(p.domain.period);
+        }
+        bool const own = !packing.density.empty();
+        if (own) density.clear();
+        for (std::size_t k = 0; own && k < store.size(); ++k) density.push_back(packing.density[std::size_t(order[k])]);
+        loads = load_set<real, dim>(p.gravity, p.weight_shares(density), own);
+        loads.apply_weight(store);
+    }
+};
+LACUNA_END_PACKS
+
+} // namespace lacuna

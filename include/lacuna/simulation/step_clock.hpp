@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+#include <lacuna/core/error.hpp>
+#include <lacuna/core/state.hpp>
+#include <lacuna/simulation/guards.hpp>
+#include <lacuna/simulation/limits.hpp>
+#include <lacuna/simulation/simulation_state.hpp>
+#include <lacuna/simulation/step_control.hpp>
+
+namespace lacuna {
+
+LACUNA_BEGIN_PACKS
+/// Counts the steps of a run, and sets their length.
+///
+/// A step of our choice is a share of the critical one and follows it. A given step stays; the run ends when it is not safe any
+/// more, unless allow_unstable_step is set.
+template <class Model>
+class step_clock {
+public:
+    using real = typename Model::real;
+    static constexpr int dim = Model::dim;
+    using state_type = simulation_state<Model>;
+
+    explicit step_clock(double start_time) : epoch_{start_time, 0} {}
+
+    long long step() const noexcept { return step_; }
+    bool is_resolved() const noexcept { return time_step_.has_value(); }
+    /// s; not a number until it is resolved.
+    double time_step() const noexcept { return time_step_.value_or(std::numeric_limits<double>::quiet_NaN()); }
+    /// Length of the step before, s; before the first step that of the first.
+    double previous_step() const noexcept { return step_ > 0 ? previous_ : time_step(); }
+    /// Time of the positions, s.
+    double time() const noexcept {
+        return step_ == epoch_.step ? epoch_.time : epoch_.time + double(step_ - epoch_.step) * time_step();
+    }
+    moment now() const noexcept { return {step_, time()}; }
+    step_control<Model> const& control() const noexcept { return control_; }
+
+    /// The next step resolves the length anew: what it depends on has changed before the first step.
+    void reset() noexcept { time_step_.reset(); }
+    /// Supports have changed.
+    void supports_changed() noexcept { control_.forget_forecast(); }
+
+    /// Sets the length of the first step: the given one if it is stable, else a share of the critical one. Does nothing when it
+    /// is known.
+    /// \throws std::invalid_argument for a given step above the stable limit, and without any stiffness for none given;
+    ///         std::logic_error when the pores of a model with fluid are not filled
+    void resolve(state_type& s) {
+        if (time_step_) return;
+        if constexpr (has_fluid<Model>)
+            if (!s.filled()) throw std::logic_error("simulation: the model has a fluid but fill_pores() was not called");
+        control_.reset(s.filled());
+        auto assumed = next_assumption(s);
+        time_step_limits found = find(s, assumed);
+        double speed = s.walls.fastest_next();
+        for (std::size_t k = 0; k < s.store.size(); ++k) speed = std::max(speed, double(norm(s.store.velocity(k))));
+        look_ahead(s, speed, assumed.overlap);
+        if (double const reach = is_given(s) ? 0 : 2 * speed * chosen_step(s, found.critical());
+            reach > assumed.gap && std::isfinite(reach)) {
+            assumed = next_assumption(s, false, reach); // what may touch within the first step
+            found = find(s, assumed);
+        }
+        time_step_ = first_step(s, found);
+        looked(s, assumed, found.rigorous);
+    }
+
+    /// Before the forces of a step: looks for the critical step again when it is due, and follows it.
+    /// \return the length of the step, s
+    /// \throws unstable_run for a given step that is not safe any more
+    double begin_step(state_type& s) {
+        if (control_.looks_now()) update_critical_step(s);
+        return previous_ = *time_step_;
+    }
+    /// After a step.
+    /// \param max_displacement upper bound of the path of every particle in it, m
+    /// \param remeshed whether the pores were made anew
+    void end_step(state_type& s, real max_displacement, bool remeshed) {
+        max_displacement_ = max_displacement;
+        if (is_watched(s)) {
+            double const path = std::max(double(max_displacement_), s.walls.fastest() * double(real(*time_step_)));
+            double const deepest = std::max(s.pairs.take_deepest(), s.walls.take_deepest());
+            control_.moved(path, deepest, !s.events.empty() || s.own_forces.active());
+        }
+        ++step_;
+        if (remeshed || step_ % 64 == 0) enforce_flow_limit(s);
+    }
+
+    time_step_limits limits(state_type const& s) const {
+        limit_scratch<dim> scratch;
+        return find_limits<Model>(s, assumed_contacts(s), time(), scratch);
+    }
+    contact_assumption assumed_contacts(state_type const& s) const {
+        return time_step_ ? control_.assumed() : next_assumption(s);
+    }
+
+    template <class Archive>
+    void serialize(Archive& ar) {
+        ar(time_step_, control_, max_displacement_, step_, epoch_.time, epoch_.step, previous_);
+        require_state(!time_step_ || (*time_step_ > 0 && std::isfinite(*time_step_)), "its time step");
+        require_state(step_ >= 0 && step_ < (1LL << 62), "its number of steps");
+    }
+
+private:
+    static bool is_given(state_type const& s) noexcept { return s.settings.time_step > 0; }
+    /// Whether the bound is looked for during the run.
+    static bool is_watched(state_type const& s) noexcept { return !is_given(s) || !s.settings.allow_unstable_step; }
+    /// Whether numbers can be divided by a step.
+    static bool is_step(double step) noexcept { return real(step) > real(0) && std::isfinite(1 / real(step)); }
+
+    time_step_limits find(state_type const& s, contact_assumption const& assumed) {
+        return find_limits<Model>(s, assumed, time(), scratch_);
+    }
+    contact_assumption next_assumption(state_type const& s, bool wide = false, double reach = 0) const {
+        return control_.next_assumption(s.store, s.pairs, s.walls, !is_given(s), wide, reach,
+                                        double(s.guards.smallest_radius()), s.filled());
+    }
+    /// What contacts may become, for control_.
+    void look_ahead(state_type const& s, double speed, double overlap) {
+        control_.look_ahead(s.store, s.pairs, s.walls, s.settings.damping, speed, overlap, !is_given(s));
+    }
+    void looked(state_type& s, contact_assumption const& assumed, double rigorous) {
+        double const accurate = is_given(s) ? std::numeric_limits<double>::infinity()
+                                            : 1.3 * s.settings.safety * control_.forecast().first_contact();
+        control_.looked(assumed, *time_step_, rigorous, accurate, !is_given(s), s.filled());
+        s.pairs.watch_overlaps(control_.assumed().overlap);
+    }
+
+    /// The step for a critical one: where nothing counted has a stiffness, that of a contact which may form, s. At the
+    /// present speeds nothing moves further than half of what checked_motion() allows.
+    double chosen_step(state_type const& s, double critical) const {
+        double step = s.settings.safety * (std::isfinite(critical) ? critical : control_.forecast().first_contact());
+        if (!std::isfinite(step)) return step;
+        for (std::size_t k = 0; k < s.store.size(); ++k) {
+            double const path = double(norm(s.store.velocity(k))) * step, most = 0.05 * double(s.store.radius(k));
+            if (path > most) step *= most / path;
+        }
+        return std::min(step, 0.05 * double(s.guards.smallest_radius()) / s.walls.fastest_next());
+    }
+    double first_step(state_type const& s, time_step_limits const& found) const {
+        double const critical = found.critical();
+        if (is_given(s) && !s.settings.allow_unstable_step && !(s.settings.time_step <= critical))
+            refuse("time_step", s.settings.time_step,
+                   "at most the stable limit " + to_text(critical) + " s (of " +
+                       (found.rigorous <= found.flow ? "the particles, with rotation and fluid stiffness"
+                                                     : "the flow between pores") +
+                       "; eq. 9 gives " + to_text(found.wave_limit) + " s), or allow_unstable_step");
+        // Where all particles are held no step is too long, and eq. 9 gives one that is of use.
+        bool const free = std::isfinite(critical) || std::isfinite(control_.forecast().first_contact());
+        double const step = is_given(s) ? s.settings.time_step : chosen_step(s, free ? critical : found.wave_limit);
+        if (std::isinf(step))
+            refuse("time_step", 0.0, "given: without any stiffness there is no critical time step");
+        if (!is_step(step))
+            refuse("time_step", step,
+                   "longer, to be a step at all: a stiffness, a mass, a damping or a speed leaves the range of " +
+                       precision_text<real>());
+        return step;
+    }
+    void change_step(state_type const& s, double step) {
+        if (!is_step(step))
+            throw_unstable(s.store, now(), -1, "no time step is short enough any more",
+                           "a stiffness, a mass, a damping or a speed has left the range of " + precision_text<real>());
+        epoch_ = {time(), step_};
+        time_step_ = step;
+    }
+
+    /// Looks for the bound again, as contacts have formed or got deeper.
+    void update_critical_step(state_type& s) {
+        double const speed = std::max(double(max_displacement_) / previous_, s.walls.fastest());
+        if (is_given(s))
+            check_given_step(s, speed);
+        else
+            follow_critical_step(s, speed);
+    }
+    void check_given_step(state_type& s, double speed) {
+        auto assumed = next_assumption(s, control_.cannot_wait());
+        auto found = find(s, assumed);
+        if (control_.cannot_wait() && !(*time_step_ <= found.rigorous)) {
+            // What is near may pass: only what is about to touch ends a run.
+            assumed = next_assumption(s);
+            found = find(s, assumed);
+        }
+        look_ahead(s, speed, assumed.overlap);
+        if (!(*time_step_ <= found.rigorous) && !s.settings.allow_unstable_step)
+            throw_unstable(s.store, now(), -1,
+                           "the time step of " + to_text(*time_step_) + " s is above the stable limit, which is " +
+                               to_text(found.rigorous) + " s by now",
+                           "contacts have formed or become stiffer, bonds have failed, or supports were freed: a step that is not given follows "
+                           "the limit; allow_unstable_step goes on without");
+        looked(s, assumed, found.rigorous);
+    }
+    void follow_critical_step(state_type& s, double speed) {
+        auto assumed = next_assumption(s, control_.cannot_wait(), 2 * speed * *time_step_);
+        auto found = find(s, assumed);
+        look_ahead(s, speed, assumed.overlap);
+        if (double const longer = chosen_step(s, found.rigorous);
+            longer > 1.05 * *time_step_ && 2 * speed * longer > assumed.gap) {
+            // In a longer step bodies come together from further away.
+            assumed = next_assumption(s, true, 2 * speed * longer);
+            found = find(s, assumed);
+        }
+        double const critical = found.rigorous; // that of the fluid alone: enforce_flow_limit()
+        double const now = *time_step_, most = s.settings.safety * found.flow;
+        double const wanted = speed > 0 ? std::min(chosen_step(s, critical), std::max(now, assumed.gap / (2 * speed)))
+                                        : chosen_step(s, critical);
+        // A step that could be a little longer is not worth a change.
+        bool const follows = s.settings.follow_critical_step;
+        bool const shrinks = follows ? wanted < 0.99 * now || now > critical : now > critical;
+        bool const grows = follows && std::min(wanted, most) > 1.05 * now;
+        if ((shrinks || grows) && std::isfinite(wanted)) change_step(s, std::min(wanted, most));
+        looked(s, assumed, found.rigorous);
+    }
+
+    /// Where throats have opened, or pores were made anew, the step may be too long for an explicit flow: one of our
+    /// choice is chosen again, one that was asked for ends the run.
+    void enforce_flow_limit(state_type const& s) {
+        if constexpr (has_fluid<Model>) {
+            double const limit = flow_limit(*s.fluid.get());
+            if (*time_step_ <= limit || s.settings.allow_unstable_step) return;
+            if (is_given(s))
+                throw_unstable(s.store, now(), -1,
+                               "the flow between pores allows a time step of at most " + to_text(limit) +
+                                   " s by now, less than " + to_text(*time_step_) + " s",
+                               "throats have opened or pores become small; flow.substeps = 0 takes as many flow steps as "
+                               "are safe, implicit flow has no limit");
+            change_step(s, s.settings.safety * limits(s).critical());
+        }
+    }
+
+    /// When the present length began to apply.
+    struct epoch {
+        double time; ///< s
+        long long step;
+    };
+    epoch epoch_;
+    std::optional<double> time_step_;
+    step_control<Model> control_;
+    limit_scratch<dim> scratch_;
+    double previous_ = 0;       ///< length of the last step, s
+    real max_displacement_ = 0; ///< in the last step, m
+    long long step_ = 0;
+};
+LACUNA_END_PACKS
+
+} // namespace lacuna
