@@ -58,7 +58,7 @@ struct checkpoint_content {
 namespace detail {
 
 inline constexpr char checkpoint_magic[9] = "LACUNACP", checkpoint_end[9] = "PCANUCAL";
-inline constexpr std::uint32_t checkpoint_format = 6, checkpoint_byte_order = 0x01020304;
+inline constexpr std::uint32_t checkpoint_format = 7, checkpoint_byte_order = 0x01020304;
 inline constexpr std::uint32_t checkpoint_version[3] = {LACUNA_VERSION_MAJOR, LACUNA_VERSION_MINOR,
                                                         LACUNA_VERSION_PATCH};
 

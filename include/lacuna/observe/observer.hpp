@@ -10,26 +10,26 @@
 
 namespace lacuna {
 
-/// Moments of a run at which an observer can be called.
+/// Moments of a run at which an observer is called.
 enum class stage : unsigned {
     start = 1,    ///< on_start(simulation const&), before the first step
     step = 2,     ///< on_step(simulation const&), after each step
     breakage = 4, ///< on_break(break_event const&, simulation const&), for each bond that fails, in order
-    end = 8       ///< on_end(simulation const&), after the last step, also of a run that was stopped
+    end = 8       ///< on_end(simulation const&), after the last step, also if the run was stopped
 };
 constexpr stage operator|(stage a, stage b) noexcept { return stage(unsigned(a) | unsigned(b)); }
 constexpr bool has(stage set, stage one) noexcept { return (unsigned(set) & unsigned(one)) != 0; }
 
-/// What on_step may answer; an observer whose on_step returns void never stops a run.
+/// The result of on_step. An observer whose on_step returns void never stops a run.
 enum class run_control { go_on, stop };
 
-/// Something that run() calls at stages of a run: a class with one or more of the hooks that `stage` lists. Hooks may be
-/// templates over the simulation, or take one type of it, as in a local class.
+/// An observer is a class with one or more of the hooks that `stage` lists. A hook may be a template over the simulation, or
+/// take one type of it; so a local class works too.
 ///
-/// With `static constexpr stage stages` an observer declares its hooks: each must be callable, and no other may be there, so that
-/// a misspelt hook does not compile. With `static constexpr bool needs_energy = true` the energy ledger is kept during its runs;
-/// with a member `bool needs_energy_in(long long step) const` in the steps that it names, counted from 0. A ledger that was not
-/// kept in a step begins anew with the next one.
+/// With `static constexpr stage stages` an observer declares its hooks. Each declared hook must be callable, and no other may
+/// exist: a misspelt hook is a compile error. With `static constexpr bool needs_energy = true`, the energy ledger is computed
+/// in all steps of its runs. With a member `bool needs_energy_in(long long step) const`, it is computed in the steps for which
+/// this is true, counted from 0. After a step without it, a new ledger starts.
 template <class O>
 concept observer = std::is_class_v<std::remove_cvref_t<O>>;
 
@@ -96,7 +96,7 @@ template <class O>
 inline constexpr bool samples_energy = requires(std::remove_cvref_t<O> const& o, long long step) {
     { o.needs_energy_in(step) } -> std::convertible_to<bool>;
 };
-/// Whether an observer wants the ledger in a step.
+/// True if an observer needs the energy ledger in a step.
 template <class O>
 constexpr bool wants_energy([[maybe_unused]] O const& o, [[maybe_unused]] long long step) {
     if constexpr (samples_energy<O>)
@@ -142,7 +142,7 @@ constexpr void check_observer() {
                       "observer declares stage::breakage but on_break(break_event const&, simulation const&) cannot be called");
         static_assert(ends || !has(wanted, stage::end),
                       "observer declares stage::end but on_end(simulation const&) cannot be called");
-        // The opposite slip: a hook that is there but was not declared would silently never be called.
+        // The opposite mistake: a hook without its declared stage would silently never be called.
         static_assert(!starts || has(wanted, stage::start), "on_start is not among the stages");
         static_assert(!steps || has(wanted, stage::step), "on_step is not among the stages");
         static_assert(!breaks || has(wanted, stage::breakage), "on_break is not among the stages");
