@@ -32,8 +32,9 @@ check)
     wanted="g++ make cmake libeigen3-dev libnanoflann-dev libqhull-dev libcairo2-dev libcli11-dev
         libtomlplusplus-dev nlohmann-json3-dev libcereal-dev libnlopt-dev zlib1g-dev catch2 libbenchmark-dev
         python3-vtk9 doxygen libjs-mathjax"
-    # Ubuntu has no packages of these names. Without them a test looks at no report in a browser, another tries no newer compiler.
-    if [ -r /etc/os-release ] && grep -q '^ID=debian' /etc/os-release; then wanted="$wanted chromium clang-19"; fi
+    # Ubuntu has no packages of these names. Without them a test looks at no report in a browser, another tries no newer compiler,
+    # a third counts no lines of functions.
+    if [ -r /etc/os-release ] && grep -q '^ID=debian' /etc/os-release; then wanted="$wanted chromium clang-19 clang-tidy"; fi
     ;;
 # What the presets of these names take beside `check`.
 coverage)
