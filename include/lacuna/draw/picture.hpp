@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -179,6 +180,37 @@ inline void draw_packing(canvas& page, scene const& s, picture_style const& styl
     detail::draw_captions(page, s, style, {x, y + style.text_size});
 }
 
+namespace detail {
+/// Draws the broken bonds as dashes, those broken in tension on top.
+/// \param radius mean one of the particles, in pixels
+/// \return how many were broken in shear, in tension
+inline std::array<int, 2> draw_cracks(canvas& page, scene const& s, picture_style const& style, double radius) {
+    double const half = std::max(0.5 * style.dash_length * radius, 4.0);
+    double const thick = std::clamp(0.55 * radius, 2.5, 6.0);
+    auto const add_cracks = [&](scene::break_mode mode) {
+        int count = 0;
+        for (scene::crack const& c : s.cracks) {
+            if (c.mode != mode) continue;
+            double const size = norm(c.direction);
+            canvas::point const arm{c.direction[0] / size * half, -c.direction[1] / size * half};
+            canvas::point const middle = page.page(c.position);
+            page.add_line(middle - arm, middle + arm);
+            ++count;
+        }
+        return count;
+    };
+    for (auto mode : {scene::break_mode::shear, scene::break_mode::tension}) {
+        add_cracks(mode);
+        page.stroke({1, 1, 1, 0.9}, thick + 2.4);
+    }
+    int const sheared = add_cracks(scene::break_mode::shear);
+    page.stroke(style.shear, thick, true);
+    int const torn = add_cracks(scene::break_mode::tension);
+    page.stroke(style.tension, thick, true);
+    return {sheared, torn};
+}
+} // namespace detail
+
 /// Draws the damage as in the paper's Figures 10 to 12: pore pressure as coloured dots with a colour bar, broken bonds
 /// as dashes, particles and intact bonds in pale colours behind. Anything outside the frame is clipped.
 inline void draw_damage(canvas& page, scene const& s, picture_style const& style = {}) {
@@ -206,28 +238,7 @@ inline void draw_damage(canvas& page, scene const& s, picture_style const& style
         page.fill(scale(p.pressure));
     }
 
-    double const half = std::max(0.5 * style.dash_length * radius, 4.0);
-    double const thick = std::clamp(0.55 * radius, 2.5, 6.0);
-    auto const add_cracks = [&](scene::break_mode mode) {
-        int count = 0;
-        for (scene::crack const& c : s.cracks) {
-            if (c.mode != mode) continue;
-            double const size = norm(c.direction);
-            canvas::point const arm{c.direction[0] / size * half, -c.direction[1] / size * half};
-            canvas::point const middle = page.page(c.position);
-            page.add_line(middle - arm, middle + arm);
-            ++count;
-        }
-        return count;
-    };
-    for (auto mode : {scene::break_mode::shear, scene::break_mode::tension}) {
-        add_cracks(mode);
-        page.stroke({1, 1, 1, 0.9}, thick + 2.4);
-    }
-    int const sheared = add_cracks(scene::break_mode::shear);
-    page.stroke(style.shear, thick, true);
-    int const torn = add_cracks(scene::break_mode::tension);
-    page.stroke(style.tension, thick, true);
+    auto const [sheared, torn] = detail::draw_cracks(page, s, style, radius);
     page.unclip();
 
     detail::draw_surroundings(page, s, style, layout);

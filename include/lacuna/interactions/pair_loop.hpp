@@ -243,13 +243,11 @@ bool has_event([[maybe_unused]] Answer const& answer, [[maybe_unused]] View cons
 /// \param ahead prefetches what the next chunks read
 /// \param on_event called as on_event(pack) after a pack in which a bond has failed, or a contact exceeds a limit; rare
 template <pair_kind Kind, bool WithEnergy, bool Commit, class Law, class Damping, class Domain, class Real, int Dim, class OnEvent>
-[[gnu::noinline, gnu::flatten]] void evaluate_chunk(pair_table<Law, Real, Dim>& table, int chunk,
-                                      parameter_table<Law, Real> const& parameters,
-                                      typename Damping::parameters const& damping,
-                                      particle_store<Real, Dim> const& store, Real time_step,
-                                      chunk_output<Real> const& out, prefetcher::plan& ahead, pair_energy& energy,
-                                      [[maybe_unused]] overlap_limits<Real> const& limits,
-                                      [[maybe_unused]] OnEvent const& on_event) {
+[[gnu::noinline, gnu::flatten]] void
+evaluate_chunk(pair_table<Law, Real, Dim>& table, int chunk, parameter_table<Law, Real> const& parameters,
+               typename Damping::parameters const& damping, particle_store<Real, Dim> const& store, Real time_step,
+               chunk_output<Real> const& out, prefetcher::plan& ahead, pair_energy& energy,
+               [[maybe_unused]] overlap_limits<Real> const& limits, [[maybe_unused]] OnEvent const& on_event) {
     using lanes = typename pair_table<Law, Real, Dim>::lanes;
     constexpr int W = lanes::width;
     constexpr std::size_t stride = 4 * pair_forces<Real, Dim>::records_per_pair;
@@ -259,8 +257,7 @@ template <pair_kind Kind, bool WithEnergy, bool Commit, class Law, class Damping
     Real* const forces = out.forces;
     std::size_t offset = out.offsets.first, kept = out.offsets.kept;
     typename Law::template parameters<lanes> law{};
-    std::int32_t loaded = -2;
-    bool const prefetches = ahead.any;
+    std::int32_t loaded = -2; // row of parameters
     auto const load_pair = [&](std::size_t p) {
         auto pair = load_relative<lanes>(store, table.i_records() + p * W, table.j_records() + p * W);
         if constexpr (Domain::periodic) pair.arm = store.period().shortest(pair.arm);
@@ -277,7 +274,7 @@ template <pair_kind Kind, bool WithEnergy, bool Commit, class Law, class Damping
     if (looks_ahead && first < end) next = load_pair(first);
     for (std::size_t p = first; p < end; ++p) {
         std::size_t const slot = p * W;
-        if (prefetches) {
+        if (ahead.any) {
             ahead.prefetch();
             prefetch_pairs(table, store, p, 16, pack_after);
         }
@@ -303,10 +300,8 @@ template <pair_kind Kind, bool WithEnergy, bool Commit, class Law, class Damping
         if (++offset == kept) offset = 0;
         if (out.normals) normal.store(out.normals + slot);
         if constexpr (carries_moment<Law>) store_moments(out.moments, slot, frame.moment(answer));
-        if constexpr (WithEnergy && states_energies<Law, Dim>) {
-            stored += answer.stored_energy;
-            dissipated += answer.dissipated_energy;
-        }
+        if constexpr (WithEnergy && states_energies<Law, Dim>)
+            stored += answer.stored_energy, dissipated += answer.dissipated_energy;
         if constexpr (Commit)
             if (has_event<Kind, Law>(answer, view, state, limits)) [[unlikely]]
                 on_event(p);

@@ -35,10 +35,9 @@ struct symplectic_euler {
     /// \param extra other forces of this step, N, or nullptr; per particle one record {F_x, F_y, torque over radius, 0}
     ///        in 2D, two records (force, torque over radius) in 3D
     template <bool WithEnergy, class Damping, class Real, int Dim, class PairForce>
-    [[gnu::noinline, gnu::flatten]] static void advance(particle_store<Real, Dim>& store, std::size_t first, int count,
-                                          Real time_step, PairForce const& pair_force,
-                                          typename Damping::parameters const& damping,
-                                          record_column<Real> const* extra, motion_report<Real>& report) {
+    [[gnu::noinline, gnu::flatten]] static void
+    advance(particle_store<Real, Dim>& store, std::size_t first, int count, Real time_step, PairForce const& pair_force,
+            typename Damping::parameters const& damping, record_column<Real> const* extra, motion_report<Real>& report) {
         using rec = record<Real>;
         rec dt(time_step);
         rec path(time_step); // the fourth lane holds the radius
@@ -49,8 +48,7 @@ struct symplectic_euler {
         [[maybe_unused]] bool const torqued = store.torques().size() > 0;
         for (int k = 0; k < count; ++k) {
             std::size_t const p = first + std::size_t(k);
-            rec position = store.bodies().of(p, 0);
-            rec velocity = store.bodies().of(p, 1);
+            rec position = store.bodies().of(p, 0), velocity = store.bodies().of(p, 1);
             rec load(Real(0));
             if (loads) load = rec::load(loads + 4 * k);
             if constexpr (Dim == 2) {

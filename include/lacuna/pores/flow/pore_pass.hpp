@@ -132,7 +132,6 @@ public:
         lanes stiffness(fluid.bulk_modulus), compliance(Real(1) / fluid.bulk_modulus), thickness(fluid.thickness);
         lanes least(fluid.minimum_pressure), dt(time_step), zero(Real(0)), half(Real(0.5)), share(minimum_share_);
         lanes content(Real(0)), changed(Real(0)), work(Real(0)), vapour_work(Real(0)), prefactor(Real(0));
-        Real const* flow = net.flow.data();
         std::size_t const ahead = net.particles < few_particles ? 0 : 16;
         std::size_t const first = std::size_t(chunk) * chunk_packs, end = std::min(first + chunk_packs, packs_);
         for (std::size_t p = first; p < end; ++p) {
@@ -155,15 +154,7 @@ public:
             }
             lanes grown = volume - last;
             lanes old = lanes::load(net.pressure.data() + slot);
-            lanes inflow = zero;
-            if (flows) {
-                lanes outflows = detail::load_single<Real, width>(net.throats_of.outflows(p));
-                for (std::size_t e = 0; e < net.throats_of.row(); ++e) {
-                    lanes q = detail::gather<Real, width>(flow, net.throats_of.throats(p, e));
-                    inflow += select(outflows > lanes(Real(e)), -q, q);
-                }
-                inflow *= dt;
-            }
+            lanes inflow = flows ? inflow_of(net, p) * dt : zero;
             lanes per_volume = stiffness / volume;
             lanes next = old + per_volume * (inflow - grown);
             lanes torn = zero;
@@ -192,6 +183,16 @@ public:
     }
 
 private:
+    /// Fluid that flows into each pore of a pack through its throats, m^3/s.
+    static pack<Real, width> inflow_of(pore_network<Real, Dim> const& net, std::size_t p) noexcept {
+        using lanes = pack<Real, width>;
+        lanes sum(Real(0)), outflows = detail::load_single<Real, width>(net.throats_of.outflows(p));
+        for (std::size_t e = 0; e < net.throats_of.row(); ++e) {
+            lanes q = detail::gather<Real, width>(net.flow.data(), net.throats_of.throats(p, e));
+            sum += select(outflows > lanes(Real(e)), -q, q);
+        }
+        return sum;
+    }
     template <class T>
     using shape_of = std::conditional_t<Dim == 2, pore_shape<T>, tetrahedron_shape<T>>;
 

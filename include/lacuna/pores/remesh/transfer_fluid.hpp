@@ -147,6 +147,172 @@ void keep_sizes(pore_network<Real, 2> const& from, pore_network<Real, 2>& to) {
     }
 }
 
+namespace detail {
+/// The work of transfer_fluid(): regions of old and new pores that overlap, and what each contains.
+template <class Real>
+class fluid_transfer {
+public:
+    fluid_transfer(pore_network<Real, 2> const& from, pore_network<Real, 2>& to, points_view<Real, 2> points,
+                   double bulk_modulus, double minimum_pressure)
+        : from_(from), to_(to), points_(points), bulk_modulus_(bulk_modulus), minimum_pressure_(minimum_pressure) {}
+
+    transferred_fluid run() {
+        match_pores();
+        unite_overlapping();
+        unite_lone_regions();
+        find_contents();
+        share_out();
+        for (std::size_t p = 0; p < from_.pores(); ++p)
+            report_.content += std::fabs(double(from_.old_volume[p]) * double(from_.pressure[p])) / bulk_modulus_ +
+                               double(from_.vapour_of(p));
+        transfer_throats(from_, to_);
+        return report_;
+    }
+
+private:
+    static constexpr auto none = std::size_t(-1);
+
+    /// Copies the pores that both networks have, which sort their pores by corners; lists the others.
+    void match_pores() {
+        old_of_new_.assign(to_.pores(), none);
+        new_of_old_.assign(from_.pores(), none);
+        std::size_t a = 0, b = 0;
+        while (a < from_.pores() || b < to_.pores()) {
+            bool const old_first = b == to_.pores() || (a < from_.pores() && corners(from_, a) < corners(to_, b));
+            bool const new_first = a == from_.pores() || (b < to_.pores() && corners(to_, b) < corners(from_, a));
+            if (old_first) {
+                removed_.push_back(changed_pore_at(from_, a++, points_));
+            } else if (new_first) {
+                added_.push_back(changed_pore_at(to_, b++, points_));
+            } else {
+                to_.volume[b] = from_.volume[a];
+                to_.old_volume[b] = from_.old_volume[a];
+                to_.pressure[b] = from_.pressure[a];
+                if (!to_.vapour.empty()) to_.vapour[b] = from_.vapour_of(a);
+                old_of_new_[b] = a;
+                new_of_old_[a++] = b++;
+            }
+        }
+        report_.kept = to_.pores() - added_.size();
+        report_.changed = added_.size();
+    }
+
+    /// Unites old and new pores that overlap. Nodes of the union-find: all old pores, then all new ones.
+    void unite_overlapping() {
+        up_.resize(from_.pores() + to_.pores());
+        std::iota(up_.begin(), up_.end(), std::size_t(0));
+        area_.assign(to_.pores(), 0);
+        sum_.assign(to_.pores(), 0);
+        auto const by_low = [](auto const& p, auto const& q) { return p.low != q.low ? p.low < q.low : p.pore < q.pore; };
+        std::sort(removed_.begin(), removed_.end(), by_low);
+        std::sort(added_.begin(), added_.end(), by_low);
+        Real widest(0);
+        for (auto const& p : removed_) widest = max(widest, p.high - p.low);
+        std::size_t start = 0;
+        for (auto const& q : added_) {
+            while (start < removed_.size() && removed_[start].low + widest < q.low) ++start;
+            for (std::size_t k = start; k < removed_.size() && removed_[k].low <= q.high; ++k) {
+                auto const& p = removed_[k];
+                if (p.high < q.low) continue;
+                Real const common = common_area(p.x, q.x);
+                if (!(common > Real(1e-9) * min(p.area, q.area))) continue;
+                area_[q.pore] += double(common);
+                sum_[q.pore] += double(common) * double(from_.pressure[p.pore]);
+                unite(up_, p.pore, new_node(q.pore));
+            }
+        }
+    }
+
+    /// A region without new pores joins its neighbours, and their neighbours if those are removed too.
+    void unite_lone_regions() {
+        std::vector<std::uint8_t> has_new(up_.size());
+        bool moved = true;
+        while (moved) {
+            std::fill(has_new.begin(), has_new.end(), std::uint8_t(0));
+            for (std::size_t q = 0; q < to_.pores(); ++q) has_new[find_root(up_, new_node(q))] = 1;
+            moved = false;
+            for (auto const& p : removed_) {
+                if (has_new[find_root(up_, p.pore)]) continue;
+                from_.throats_of.for_each(p.pore, [&](std::size_t t, int side) {
+                    auto const other = from_.throat_pore[std::size_t(1 - side)][t];
+                    if (other < 0) return;
+                    auto const found = new_of_old_[std::size_t(other)];
+                    auto const next = found == none ? std::size_t(other) : new_node(found);
+                    if (find_root(up_, next) == find_root(up_, p.pore)) return;
+                    unite(up_, p.pore, next);
+                    moved = true;
+                });
+            }
+        }
+    }
+
+    /// Sums the fluid of each region, and gives its new pores the mean pressures of the old ones that they overlap.
+    void find_contents() {
+        regions_.resize(up_.size());
+        for (auto const& p : removed_) {
+            region& r = region_of(p.pore);
+            double const filled = double(from_.old_volume[p.pore]) * double(from_.pressure[p.pore]);
+            r.content += filled - bulk_modulus_ * double(from_.vapour_of(p.pore));
+            r.old_volume += double(from_.old_volume[p.pore]);
+            r.real = true;
+        }
+        for (auto const& q : added_) region_of(new_node(q.pore)).real = true;
+        for (std::size_t q = 0; q < to_.pores(); ++q) {
+            region& r = region_of(new_node(q));
+            if (!r.real) continue;
+            touched_.push_back(q);
+            double const volume = double(to_.old_volume[q]);
+            double pressure = area_[q] > 0 ? sum_[q] / area_[q] : 0;
+            if (old_of_new_[q] != none) { // neighbour of a region without new pores
+                pressure = double(to_.pressure[q]);
+                r.content += volume * pressure - bulk_modulus_ * double(to_.vapour_of(q));
+                r.old_volume += volume;
+            }
+            to_.pressure[q] = Real(pressure);
+            r.guess += volume * double(to_.pressure[q]);
+            r.volume += volume;
+        }
+    }
+
+    /// Shifts the pressures of each region so that it has its content.
+    void share_out() {
+        for (std::size_t q : touched_) {
+            region const& r = region_of(new_node(q));
+            double const volume = double(to_.old_volume[q]);
+            double const wanted = double(to_.pressure[q]) + (r.content - r.guess) / r.volume;
+            bool const torn = wanted < minimum_pressure_;
+            to_.pressure[q] = Real(torn ? minimum_pressure_ : wanted);
+            if (!to_.vapour.empty()) to_.vapour[q] = Real(torn ? (minimum_pressure_ - wanted) * volume / bulk_modulus_ : 0);
+            report_.residual += (volume * double(to_.pressure[q])) / bulk_modulus_ - double(to_.vapour_of(q));
+            report_.volume += volume;
+        }
+        for (auto const& r : regions_) {
+            if (!r.real) continue;
+            ++report_.regions;
+            report_.volume -= r.old_volume;
+            (r.volume > 0 ? report_.residual : report_.lost) += (r.volume > 0 ? -1 : 1) * r.content / bulk_modulus_;
+        }
+    }
+
+    struct region {
+        double content = 0, guess = 0, volume = 0, old_volume = 0;
+        bool real = false;
+    };
+    std::size_t new_node(std::size_t pore) const noexcept { return from_.pores() + pore; }
+    region& region_of(std::size_t node) { return regions_[find_root(up_, node)]; }
+
+    pore_network<Real, 2> const& from_;
+    pore_network<Real, 2>& to_;
+    points_view<Real, 2> points_;
+    double bulk_modulus_, minimum_pressure_;
+    transferred_fluid report_;
+    std::vector<std::size_t> old_of_new_, new_of_old_, up_, touched_;
+    std::vector<changed_pore<Real>> removed_, added_;
+    std::vector<double> area_, sum_; ///< of each new pore: overlap with old ones, m^2, and pressure times it
+    std::vector<region> regions_;
+};
+} // namespace detail
+
 /// Transfers the fluid of a network to the network of a new mesh of the same particles in the same positions.
 ///
 /// A pore that is in both meshes keeps its volumes, pressure and vapour, to the bit. The other pores form regions of
@@ -163,134 +329,7 @@ void keep_sizes(pore_network<Real, 2> const& from, pore_network<Real, 2>& to) {
 template <class Real>
 transferred_fluid transfer_fluid(pore_network<Real, 2> const& from, pore_network<Real, 2>& to,
                                  points_view<Real, 2> points, double bulk_modulus, double minimum_pressure) {
-    using namespace detail;
-    constexpr auto none = std::size_t(-1);
-    transferred_fluid report;
-    // Both networks sort their pores by corners. Nodes of the union-find: all old pores, then all new ones.
-    std::vector<std::size_t> old_of_new(to.pores(), none), new_of_old(from.pores(), none);
-    std::vector<changed_pore<Real>> removed, added;
-    std::size_t a = 0, b = 0;
-    while (a < from.pores() || b < to.pores()) {
-        bool const old_first = b == to.pores() || (a < from.pores() && corners(from, a) < corners(to, b));
-        bool const new_first = a == from.pores() || (b < to.pores() && corners(to, b) < corners(from, a));
-        if (old_first) {
-            removed.push_back(changed_pore_at(from, a++, points));
-        } else if (new_first) {
-            added.push_back(changed_pore_at(to, b++, points));
-        } else {
-            to.volume[b] = from.volume[a];
-            to.old_volume[b] = from.old_volume[a];
-            to.pressure[b] = from.pressure[a];
-            if (!to.vapour.empty()) to.vapour[b] = from.vapour_of(a);
-            old_of_new[b] = a;
-            new_of_old[a++] = b++;
-        }
-    }
-    report.kept = to.pores() - added.size();
-    report.changed = added.size();
-
-    std::size_t const offset = from.pores();
-    std::vector<std::size_t> up(offset + to.pores());
-    std::iota(up.begin(), up.end(), std::size_t(0));
-    std::vector<double> area(to.pores(), 0), sum(to.pores(), 0);
-    auto const by_low = [](auto const& p, auto const& q) { return p.low != q.low ? p.low < q.low : p.pore < q.pore; };
-    std::sort(removed.begin(), removed.end(), by_low);
-    std::sort(added.begin(), added.end(), by_low);
-    Real widest(0);
-    for (auto const& p : removed) widest = max(widest, p.high - p.low);
-    std::size_t start = 0;
-    for (auto const& q : added) {
-        while (start < removed.size() && removed[start].low + widest < q.low) ++start;
-        for (std::size_t k = start; k < removed.size() && removed[k].low <= q.high; ++k) {
-            auto const& p = removed[k];
-            if (p.high < q.low) continue;
-            Real const common = common_area(p.x, q.x);
-            if (!(common > Real(1e-9) * min(p.area, q.area))) continue;
-            area[q.pore] += double(common);
-            sum[q.pore] += double(common) * double(from.pressure[p.pore]);
-            unite(up, p.pore, offset + q.pore);
-        }
-    }
-
-    // A region without new pores joins its neighbours, and their neighbours if those are removed too.
-    std::vector<std::uint8_t> has_new(up.size());
-    auto const mark = [&] {
-        std::fill(has_new.begin(), has_new.end(), std::uint8_t(0));
-        for (std::size_t q = 0; q < to.pores(); ++q) has_new[find_root(up, offset + q)] = 1;
-    };
-    mark();
-    bool moved = true;
-    while (moved) {
-        moved = false;
-        for (auto const& p : removed) {
-            if (has_new[find_root(up, p.pore)]) continue;
-            from.throats_of.for_each(p.pore, [&](std::size_t t, int side) {
-                auto const other = from.throat_pore[std::size_t(1 - side)][t];
-                if (other < 0) return;
-                auto const next = new_of_old[std::size_t(other)] == none ? std::size_t(other)
-                                                                         : offset + new_of_old[std::size_t(other)];
-                if (find_root(up, next) == find_root(up, p.pore)) return;
-                unite(up, p.pore, next);
-                moved = true;
-            });
-        }
-        if (moved) mark();
-    }
-
-    struct region {
-        double content = 0, guess = 0, volume = 0, old_volume = 0, scale = 0;
-        bool real = false;
-    };
-    std::vector<region> regions(up.size());
-    for (auto const& p : removed) {
-        auto& r = regions[find_root(up, p.pore)];
-        double const filled = double(from.old_volume[p.pore]) * double(from.pressure[p.pore]);
-        double const vapour = bulk_modulus * double(from.vapour_of(p.pore));
-        r.content += filled - vapour;
-        r.scale += std::fabs(filled) + vapour;
-        r.old_volume += double(from.old_volume[p.pore]);
-        r.real = true;
-    }
-    for (auto const& q : added) regions[find_root(up, offset + q.pore)].real = true;
-    std::vector<std::size_t> touched;
-    for (std::size_t q = 0; q < to.pores(); ++q) {
-        auto& r = regions[find_root(up, offset + q)];
-        if (!r.real) continue;
-        touched.push_back(q);
-        double const volume = double(to.old_volume[q]);
-        double pressure = area[q] > 0 ? sum[q] / area[q] : 0;
-        if (old_of_new[q] != none) { // neighbour of a region without new pores
-            pressure = double(to.pressure[q]);
-            double const vapour = bulk_modulus * double(to.vapour_of(q));
-            r.content += volume * pressure - vapour;
-            r.scale += std::fabs(volume * pressure) + vapour;
-            r.old_volume += volume;
-        }
-        to.pressure[q] = Real(pressure);
-        r.guess += volume * double(to.pressure[q]);
-        r.volume += volume;
-    }
-    for (std::size_t q : touched) {
-        auto const& r = regions[find_root(up, offset + q)];
-        double const volume = double(to.old_volume[q]);
-        double const wanted = double(to.pressure[q]) + (r.content - r.guess) / r.volume;
-        bool const torn = wanted < minimum_pressure;
-        to.pressure[q] = Real(torn ? minimum_pressure : wanted);
-        if (!to.vapour.empty()) to.vapour[q] = Real(torn ? (minimum_pressure - wanted) * volume / bulk_modulus : 0);
-        report.residual += (volume * double(to.pressure[q])) / bulk_modulus - double(to.vapour_of(q));
-        report.volume += volume;
-    }
-    for (auto const& r : regions) {
-        if (!r.real) continue;
-        ++report.regions;
-        report.volume -= r.old_volume;
-        (r.volume > 0 ? report.residual : report.lost) += (r.volume > 0 ? -1 : 1) * r.content / bulk_modulus;
-    }
-    for (std::size_t p = 0; p < from.pores(); ++p)
-        report.content += std::fabs(double(from.old_volume[p]) * double(from.pressure[p])) / bulk_modulus +
-                          double(from.vapour_of(p));
-    transfer_throats(from, to);
-    return report;
+    return detail::fluid_transfer<Real>(from, to, points, bulk_modulus, minimum_pressure).run();
 }
 
 } // namespace lacuna
