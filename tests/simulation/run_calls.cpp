@@ -154,28 +154,3 @@ TEST_CASE("what is set after the time step was asked for counts in the first ste
     REQUIRE(by_energy.time_step() == by_run.time_step());
     REQUIRE(by_step.position(0)[0] == by_run.position(0)[0]);
 }
-
-TEST_CASE("advance() is a step of run() without observers, on the time step that was first asked for", "[same bits]") {
-    auto const pair = [](double gap) {
-        packing<double, 2> discs;
-        discs.add({0.0, 0.0}, 0.5);
-        discs.add({1.0 + gap, 0.0}, 0.5);
-        return simulation<default_model<2>>(discs, {});
-    };
-    // A twelfth of the radius in a step, for which run() and step() would choose a shorter one: at most a twentieth.
-    auto fast = pair(1.0);
-    double const first = fast.time_step();
-    fast.set_velocity(0, {0.5 / 12 / first, 0.0});
-    fast.advance<true>();
-    CHECK(fast.time_step() == first);
-    CHECK_THAT(fast.position(0)[0], Catch::Matchers::WithinRel(0.5 / 12, 1e-12));
-    CHECK_THAT(fast.energy().kinetic, Catch::Matchers::WithinRel(0.5 * fast.mass(0) * std::pow(0.5 / 12 / first, 2), 1e-12));
-
-    // Discs that collide: the steps of run(), bit for bit.
-    auto by_run = pair(0.01), by_advance = pair(0.01);
-    for (auto* sim : {&by_run, &by_advance}) sim->set_velocity(0, {0.5 / 1000 / first, 0.0});
-    by_run.run(100);
-    REQUIRE(by_run.velocity(1)[0] > 0);
-    for (int n = 0; n < 100; ++n) by_advance.advance<false>();
-    CHECK(state_hash(by_advance) == state_hash(by_run));
-}

@@ -56,8 +56,9 @@ std::unique_ptr<lacuna::simulation<Model>> load_specimen(specimen const& s, opti
     as template std::unique_ptr<lacuna::simulation<cartilage::Model>> cartilage::load_specimen(                         \
         cartilage::specimen const&, cartilage::options const&);                                                        \
     as template void lacuna::explicit_stepper<cartilage::Model>::step<true>();                                          \
-    as template double lacuna::simulation<cartilage::Model>::resolve_time_step();                                       \
-    as template lacuna::time_step_limits lacuna::simulation<cartilage::Model>::limits() const;
+    as template void lacuna::step_clock<cartilage::Model>::resolve(lacuna::simulation_state<cartilage::Model>&);        \
+    as template lacuna::time_step_limits lacuna::step_clock<cartilage::Model>::limits(                                  \
+        lacuna::simulation_state<cartilage::Model> const&) const;
 CARTILAGE_INSTANTIATE(dry_model, extern)
 CARTILAGE_INSTANTIATE(wet_model, extern)
 CARTILAGE_INSTANTIATE(dry_beam_model, extern)

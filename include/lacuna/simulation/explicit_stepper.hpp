@@ -22,6 +22,8 @@ LACUNA_BEGIN_PACKS
 /// \code
 /// explicit_stepper<Model>(state, clock).template step<WithEnergy>();
 /// \endcode
+/// Most of a model's code is in step(), and in step_clock's resolve() and limits(). A program of several files compiles it once
+/// by `extern template` of these three; see examples/cartilage/run/cartilage_model.hpp.
 template <class Model>
 class explicit_stepper {
 public:
@@ -35,28 +37,7 @@ public:
     /// \tparam WithEnergy keep the energy ledger
     /// \throws unstable_run when the state is no longer meaningful
     template <bool WithEnergy>
-    void step() {
-        bool const pairs_changed = update_neighbours();
-        previous_ = real(clock_.previous_step());
-        dt_ = real(clock_.begin_step(s_)); // follows or keeps the time step
-        apply_prescribed_motion();
-        force_step<real> forces{clock_.now(), previous_, pairs_changed};
-        if (nothing_else_reads_forces()) {
-            compute_pair_forces_and_move<WithEnergy>(); // fused: forces are used while in cache
-        } else {
-            s_.changes.swap_in_old(s_.store);
-            compute_pair_forces<WithEnergy>();
-            compute_other_forces<WithEnergy>(forces); // fluid, moments, walls, the model's own, plates
-            move_walls();
-            correct_for_velocity_changes<WithEnergy>();
-            move_particles<WithEnergy>();
-        }
-        collect_failures();
-        real const max_displacement = check_motion();
-        book_energy<WithEnergy>();
-        check_fluid(pairs_changed);
-        clock_.end_step(s_, max_displacement, forces.remeshed);
-    }
+    void step();
 
 private:
     bool update_neighbours() {
@@ -252,6 +233,31 @@ private:
     bool other_forces_act_ = false, velocities_on_time_ = false;
     std::int32_t fastest_given_ = -1; ///< fastest particle that was given a velocity since the last step, -1: none
 };
+// Outside the class: else each file that includes this compiles it, `extern template` or not.
+template <class Model>
+template <bool WithEnergy>
+void explicit_stepper<Model>::step() {
+    bool const pairs_changed = update_neighbours();
+    previous_ = real(clock_.previous_step());
+    dt_ = real(clock_.begin_step(s_)); // follows or keeps the time step
+    apply_prescribed_motion();
+    force_step<real> forces{clock_.now(), previous_, pairs_changed};
+    if (nothing_else_reads_forces()) {
+        compute_pair_forces_and_move<WithEnergy>(); // fused: forces are used while in cache
+    } else {
+        s_.changes.swap_in_old(s_.store);
+        compute_pair_forces<WithEnergy>();
+        compute_other_forces<WithEnergy>(forces); // fluid, moments, walls, the model's own, plates
+        move_walls();
+        correct_for_velocity_changes<WithEnergy>();
+        move_particles<WithEnergy>();
+    }
+    collect_failures();
+    real const max_displacement = check_motion();
+    book_energy<WithEnergy>();
+    check_fluid(pairs_changed);
+    clock_.end_step(s_, max_displacement, forces.remeshed);
+}
 LACUNA_END_PACKS
 
 } // namespace lacuna

@@ -53,24 +53,7 @@ public:
     /// is known.
     /// \throws std::invalid_argument for a given step above the stable limit, and without any stiffness for none given;
     ///         std::logic_error when the pores of a model with fluid are not filled
-    void resolve(state_type& s) {
-        if (time_step_) return;
-        if constexpr (has_fluid<Model>)
-            if (!s.filled()) throw std::logic_error("simulation: the model has a fluid but fill_pores() was not called");
-        control_.reset(s.filled());
-        auto assumed = next_assumption(s);
-        time_step_limits found = find(s, assumed);
-        double speed = s.walls.fastest_next();
-        for (std::size_t k = 0; k < s.store.size(); ++k) speed = std::max(speed, double(norm(s.store.velocity(k))));
-        look_ahead(s, speed, assumed.overlap);
-        if (double const reach = is_given(s) ? 0 : 2 * speed * chosen_step(s, found.critical());
-            reach > assumed.gap && std::isfinite(reach)) {
-            assumed = next_assumption(s, false, reach); // what may touch within the first step
-            found = find(s, assumed);
-        }
-        time_step_ = first_step(s, found);
-        looked(s, assumed, found.rigorous);
-    }
+    void resolve(state_type& s);
 
     /// Before the forces of a step: looks for the critical step again when it is due, and follows it.
     /// \return the length of the step, s
@@ -93,10 +76,7 @@ public:
         if (remeshed || step_ % 64 == 0) enforce_flow_limit(s);
     }
 
-    time_step_limits limits(state_type const& s) const {
-        limit_scratch<dim> scratch;
-        return find_limits<Model>(s, assumed_contacts(s), time(), scratch);
-    }
+    time_step_limits limits(state_type const& s) const;
     contact_assumption assumed_contacts(state_type const& s) const {
         return time_step_ ? control_.assumed() : next_assumption(s);
     }
@@ -247,6 +227,32 @@ private:
     real max_displacement_ = 0; ///< in the last step, m
     long long step_ = 0;
 };
+// Outside the class, for `extern template`: see explicit_stepper.
+template <class Model>
+void step_clock<Model>::resolve(state_type& s) {
+    if (time_step_) return;
+    if constexpr (has_fluid<Model>)
+        if (!s.filled()) throw std::logic_error("simulation: the model has a fluid but fill_pores() was not called");
+    control_.reset(s.filled());
+    auto assumed = next_assumption(s);
+    time_step_limits found = find(s, assumed);
+    double speed = s.walls.fastest_next();
+    for (std::size_t k = 0; k < s.store.size(); ++k) speed = std::max(speed, double(norm(s.store.velocity(k))));
+    look_ahead(s, speed, assumed.overlap);
+    if (double const reach = is_given(s) ? 0 : 2 * speed * chosen_step(s, found.critical());
+        reach > assumed.gap && std::isfinite(reach)) {
+        assumed = next_assumption(s, false, reach); // what may touch within the first step
+        found = find(s, assumed);
+    }
+    time_step_ = first_step(s, found);
+    looked(s, assumed, found.rigorous);
+}
+
+template <class Model>
+time_step_limits step_clock<Model>::limits(state_type const& s) const {
+    limit_scratch<dim> scratch;
+    return find_limits<Model>(s, assumed_contacts(s), time(), scratch);
+}
 LACUNA_END_PACKS
 
 } // namespace lacuna
