@@ -182,7 +182,7 @@ outcome run(request const& asked, lacuna::growing_file* rows, programs::terminal
     o.ended = "strain";
     o.particles = specimen.size();
     o.bonds = specimen.bonds.size();
-    o.time_step = sim.time_step();
+    o.time_step = sim.resolve_time_step();
     lacuna::compression_parameters c;
     double const whole = double(asked.steps) * o.time_step, ramp = 0.1 * whole;
     c.axis = 1;
