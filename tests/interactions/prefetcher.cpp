@@ -44,7 +44,7 @@ TEST_CASE("prefetcher knows which particles a chunk is the first to read", "[int
     std::size_t const expected[][2] = {{0, 201}, {201, 261}, {261, 261}, {261, 9000}, {9000, 9000}, {9000, 9000}};
     for (int c = 0; c < 6; ++c) {
         CAPTURE(c);
-        auto const first_read = ahead.fresh(c);
+        auto const first_read = ahead.newly_read(c);
         CHECK(first_read[0] == expected[c][0]);
         CHECK(first_read[1] == expected[c][1]);
     }

@@ -10,21 +10,25 @@
 
 namespace lacuna {
 
-/// A bond that has just failed: its event, the contact that takes over, and what it means for the energies.
+/// A bond that has just failed: its event, the contact that replaces it, and the changes of the energies.
 template <class ContactEntry, int Dim>
 struct bond_failure {
     break_event<Dim> event;
     ContactEntry contact;
-    double released; ///< taken out of the springs by the failure, consistent with the integrator, J
+    double released; ///< energy that the failure takes out of the springs, consistent with the integrator, J
     double stored;   ///< change of the elastic energy, J; negative
 };
 
-/// Looks at one bond whose step the pair loop has evaluated: if it fails, hands it over to the contact law.
+/// Checks one bond after the pair loop has evaluated its step. If the bond fails, hands the pair over to the contact
+/// law.
 ///
-/// In tension the pair becomes a contact without force that touches no earlier than now; in shear a frictional
-/// contact at once, with the compressive normal force and the shear force clipped by Coulomb's limit.
-/// \param row of the contact's parameters
-/// \param force record of the pair: overwritten with the force of the contact
+/// After failure in tension the pair is a contact without force. Its force begins at the present distance or at
+/// r_i + r_j, whichever is smaller. After failure in shear it is a frictional contact at once: it keeps the compressive
+/// normal force, and Coulomb's limit clips the shear force.
+/// \param row row of the contact's parameters
+/// \param time_step of the step just evaluated, s
+/// \param force force record of the pair; overwritten with the force of the contact if the bond fails
+/// \return the failure; none if the bond holds
 template <class BondLaw, class ContactLaw, class Real, int Dim, class BondEntry, class BondParameters,
           class ContactParameters>
 auto fail_bond(particle_store<Real, Dim> const& store, BondEntry const& bond, BondParameters const& bond_parameters,
@@ -39,7 +43,8 @@ auto fail_bond(particle_store<Real, Dim> const& store, BondEntry const& bond, Bo
     frame.motion.slip = {};
     auto const answer = [&] {
         if constexpr (carries_moment<BondLaw>)
-            return BondLaw::evaluate(bond_parameters, frame.motion, frame.turn(i.spin, i.spin, time_step), bond.state);
+            return BondLaw::evaluate(bond_parameters, frame.motion, frame.relative_rotation(i.spin, i.spin, time_step),
+                                     bond.state);
         else
             return BondLaw::evaluate(bond_parameters, frame.motion, bond.state);
     }();
@@ -64,16 +69,16 @@ auto fail_bond(particle_store<Real, Dim> const& store, BondEntry const& bond, Bo
     event.shear_force = Dim == 2 ? double(answer.shear_force[0]) : double(norm(answer.shear_force));
     event.energy = stored_energy_of(answer);
     failure.stored = stored_energy_of(contact) - stored_energy_of(answer);
-    // The integrator sees the mean of old and new force over the step: what the springs lose to the failure is the
-    // stored energy less the work that the missing force would have done.
+    // The integrator uses the mean of old and new force over the step. Hence the springs lose the stored energy less
+    // the work that the missing force would have done.
     failure.released =
         -failure.stored -
         0.5 * double((answer.normal_force - contact.normal_force) * frame.motion.normal_rate * time_step) -
         0.5 * double(dot(answer.shear_force - contact.shear_force, slip));
     if constexpr (carries_moment<BondLaw>) {
-        auto const turn = frame.turn(i.spin, j.spin, time_step);
+        auto const rotation = frame.relative_rotation(i.spin, j.spin, time_step);
         failure.released -=
-            0.5 * double(dot(answer.bending_moment, turn.bend) + answer.twisting_moment * turn.twist);
+            0.5 * double(dot(answer.bending_moment, rotation.bend) + answer.twisting_moment * rotation.twist);
     }
     failure.contact = {bond.i, bond.j, row, -1, contact.history};
     return failure;

@@ -14,20 +14,20 @@
 
 namespace lacuna {
 
-/// What is kept of a bond for good.
+/// Permanent record of a bond; it outlives the failure of the bond.
 struct bond_record {
     std::array<std::int32_t, 2> particles; ///< stable ids
     bond_state state = bond_state::intact;
-    std::int32_t slot = -1; ///< place in the bond table while intact
+    std::int32_t slot = -1; ///< slot in the bond table while intact, else -1
 };
 
-/// The order of pairs in their tables.
+/// Order of pairs in their tables: by i, then by j.
 template <class Entry>
 bool pair_before(Entry const& a, Entry const& b) noexcept {
     return a.i < b.i || (a.i == b.i && a.j < b.j);
 }
 
-/// Tells each bond that is intact where it stands in the table; the others stand nowhere.
+/// Writes the slot of each intact bond into its record, and -1 into the records of the others.
 template <class Table>
 void number_bonds(std::span<bond_record> records, Table const& table, std::size_t particles) {
     for (auto& record : records) record.slot = -1;
@@ -38,11 +38,12 @@ void number_bonds(std::span<bond_record> records, Table const& table, std::size_
     }
 }
 
-/// Bonds between the given particles, made at the distances they have, in the order of the tables.
-/// \param pairs stable ids
+/// Makes bonds between the given particles, without force at their present distances. Sorted as in the tables.
+/// \param pairs stable ids of the two particles of each bond
 /// \param row callable (i, j) -> row of the parameter table
-/// \param longest raised to the length of the longest bond, m
-/// \throws std::invalid_argument for bonds between unknown, equal, coinciding or already bonded particles
+/// \param longest raised to the length of the longest bond if that is larger, m
+/// \throws std::invalid_argument for an unknown particle, a particle bonded to itself, two particles at the same
+///         position, and a repeated pair
 template <class Law, class Entry, class Real, int Dim, class Row>
 std::vector<Entry> make_bonds(particle_store<Real, Dim> const& store,
                               std::span<std::array<std::int32_t, 2> const> pairs, Row const& row, Real& longest) {

@@ -11,9 +11,10 @@
 
 namespace lacuna {
 
-/// Adds the moments of the pairs of a table to `out`, a record {F_x, F_y, torque over radius, 0} per particle in 2D, two
-/// records (force, torque over radius) in 3D; one after the other, in the order of the pairs.
-/// \param moments on the first of each pair, rotation_dim numbers a slot, N m
+/// Adds the moments of a table's pairs to the torques in `out`, one pair after the other in their order.
+/// \param moments moment on the first particle of each pair, N m; rotation_dim numbers per slot
+/// \param out in 2D one record {F_x, F_y, torque over radius, 0} per particle; in 3D two records (force, torque over
+///        radius); N
 template <class Table, class Real, int Dim>
 void add_moments(particle_store<Real, Dim> const& store, Table const& pairs, std::vector<Real> const& moments,
                  record_column<Real>& out) noexcept {
@@ -28,9 +29,10 @@ void add_moments(particle_store<Real, Dim> const& store, Table const& pairs, std
     }
 }
 
-/// Gives each bond with values of its own a row of its own in the table of parameters.
-/// \param own one per bond, by the bonds' labels
-/// \throws std::invalid_argument for another number of values, bad ones, and those that the law does not take
+/// Adds a row to the parameter table for each bond that has individual values.
+/// \param own individual values, one entry per bond, indexed by the bonds' labels; an empty entry adds no row
+/// \throws std::invalid_argument if the number of entries differs from that of the bonds, if a value is invalid, or if
+///         the law takes no individual values
 template <class Law, class Entry, class Real, int Dim>
 void give_own_rows(particle_store<Real, Dim> const& store, std::vector<Entry>& bonds, std::span<bond_values const> own,
                    parameter_table<Law, Real>& parameters) {

@@ -9,14 +9,15 @@ namespace lacuna {
 
 /// Settings of the pair interactions.
 struct interaction_parameters {
-    /// Verlet skin over the median radius, 1: how much closer two particles come that are no candidates before these are sought
-    /// anew.
+    /// Verlet skin over the median radius, 1. Two particles outside the candidate list may come this much closer before
+    /// the list is rebuilt.
     double skin = 0.1;
-    /// Pairs, and particles at walls, whose gap or overlap in the initial packing is below this fraction of the (smaller)
-    /// radius start as touching at zero force, at the distance they have; 0: every overlap is a force.
+    /// Fraction of the smaller radius, 1, from 0 to 0.5. Pairs (and particles at walls) of the initial packing with a
+    /// smaller gap or overlap start as touching: their force is zero at that distance. 0: every overlap makes a force.
     double initial_contact_tolerance = 0;
 
-    /// False: particles pass through each other, bonds apart. What no_contact settles for a model, for one run.
+    /// False: particles that are not bonded pass through each other in this run. The contact law no_contact does the
+    /// same for a whole model.
     bool contacts = true;
 
     void validate(std::string const& name) const {

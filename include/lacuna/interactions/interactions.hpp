@@ -30,7 +30,7 @@ namespace lacuna {
 struct interactions_archive;
 
 LACUNA_BEGIN_PACKS
-/// Bonds and contacts: their tables, histories, forces, and the hand-over from bond to contact.
+/// Bonds and contacts: their tables, histories and forces, and the hand-over from a failed bond to a contact.
 template <class Real, int Dim, contact_law<Dim> ContactLaw, bond_law<Dim> BondLaw, damping_policy Damping,
           neighbor_search Search, domain_policy Domain = open_domain>
 class interactions {
@@ -44,9 +44,11 @@ public:
     static_assert(chunk_particles == verlet_list<search_type>::block_particles);
 
     interactions() = default;
-    /// \param own values of single bonds: none, or one entry per bond
-    /// \throws std::invalid_argument for bonds between unknown, equal or already bonded particles, for values that the
-    ///         bond law does not take, and as require_stated_stiffness()
+    /// \param bonds stable ids of the two particles of each bond
+    /// \param thickness of a 2D packing, m
+    /// \param own individual values of bonds: none, or one entry per bond
+    /// \throws std::invalid_argument as make_bonds(), give_own_rows() and require_stated_stiffness(), and for a period
+    ///         that is too short
     interactions(store_type const& store, std::span<std::array<std::int32_t, 2> const> bonds,
                  std::span<material const> materials, double thickness, interaction_parameters const& parameters,
                  typename Damping::parameters const& damping, std::span<bond_values const> own = {})
@@ -74,33 +76,34 @@ public:
         rebuild_tables(store, true);
     }
 
-    /// Seeks contact candidates anew when particles have moved so far that the list could miss one; carries
-    /// out the failures of the last step. To be called before the forces of a step.
+    /// Searches for contact candidates again once particles have moved so far that the list could miss one. Replaces
+    /// the bonds that failed in the last step by contacts. Call it before the forces of a step.
     /// \return whether the tables have changed
     bool update(store_type const& store) {
-        bool const sought = has_contacts() && neighbors_.due(store.positions());
-        if (sought) neighbors_.build_for_motion(store.positions(), store.radii());
-        if (!sought && broken_.empty()) return false;
+        bool const searched = has_contacts() && neighbors_.due(store.positions());
+        if (searched) neighbors_.build_for_motion(store.positions(), store.radii());
+        if (!searched && broken_.empty()) return false;
         rebuild_tables(store, false);
         return true;
     }
-    /// Counts what the particles of a chunk have moved in a step, at most, m. Due after each step for each chunk.
+    /// Adds the largest displacement of a chunk's particles in a step, m. Call it after each step for each chunk.
     void add_path(int chunk, Real path) noexcept {
         if (has_contacts()) neighbors_.add_path(std::size_t(chunk), path);
     }
 
     int chunks() const noexcept { return forces_.chunks(); }
 
-    /// As force_buffer::set_force_retention().
+    /// As force_buffer::set_force_retention(); rebuilds the buffer at once.
     void set_force_retention(store_type const& store, bool transient, int threads) {
         if (!forces_.set_force_retention(transient, threads)) return;
         neighbors_.set_threads(threads);
         forces_.build(store.size(), bonds_, contacts_);
     }
-    /// As force_buffer::keep_normals(); for find_normal_force().
+    /// As force_buffer::keep_normals(). find_normal_force() requires it.
     void keep_normal_forces() { forces_.keep_normals(bonds_, contacts_); }
-    /// Whether forces are kept no longer than it takes to sum them up. A chunk's sums can be used while its forces are
-    /// fresh, by for_fresh_force_sums(), or are kept by keep_force_sums(), after prepare_force_sums(), for for_force_sums().
+    /// True if single pair forces are discarded once they are summed up. Then either use a chunk's sums right after its
+    /// evaluation, by for_fresh_force_sums(). Or call prepare_force_sums() once and keep_force_sums() for each chunk,
+    /// and use for_force_sums() later.
     bool forces_are_transient() const noexcept { return forces_.forces_are_transient(); }
     void prepare_force_sums(store_type const& store) { forces_.prepare_force_sums(store.size()); }
     void keep_force_sums(store_type const& store, int chunk) { forces_.keep_force_sums(chunk, store.size()); }
@@ -111,8 +114,9 @@ public:
     chunk_spans const& spans() const noexcept { return forces_.spans(); }
 
     /// Evaluates the forces of the pairs that a chunk of particles owns. Chunks are independent of each other.
-    /// \tparam Commit false: a trial, which leaves histories as they are, breaks no bond and notes no overlap
-    /// \param time_step of the motion that led to the positions, s
+    /// \tparam WithEnergy whether energies are summed up for energy()
+    /// \tparam Commit false: a trial, which leaves histories as they are, breaks no bond and records no overlap
+    /// \param time_step length of the step that led to the present positions, s
     template <bool WithEnergy, bool Commit = true>
     void evaluate(store_type const& store, int chunk, Real time_step) {
         auto& energy = energy_[std::size_t(chunk)];
@@ -135,13 +139,13 @@ public:
         forces_.for_force_sums(chunk, use);
     }
 
-    /// Adds the moments that pairs have exerted in the last evaluation; see lacuna::add_moments().
+    /// Adds the moments of the pairs in the last evaluation to `out`; see lacuna::add_moments().
     void add_moments([[maybe_unused]] store_type const& store, [[maybe_unused]] record_column<Real>& out) const noexcept {
         if constexpr (carries_moment<BondLaw>) lacuna::add_moments(store, bonds_, moments_, out);
         if constexpr (carries_moment<ContactLaw>) lacuna::add_moments(store, contacts_, contact_moments_, out);
     }
 
-    /// Failures of the step just evaluated, in the order of the pairs; to be completed with step and time.
+    /// Failures of the step just evaluated, in the order of the pairs. The caller adds the step's number and time.
     std::span<break_event<Dim> const> collect_events() {
         events_.clear();
         fracture_energy_ = {};
@@ -158,10 +162,11 @@ public:
         }
         return events_;
     }
-    /// Energy that the step's failures in tension, in shear took out of the springs, consistent with the integrator, J.
+    /// Energy that the step's failures took out of the springs: in tension, then in shear, consistent with the
+    /// integrator, J.
     std::array<double, 2> const& fracture_energy() const noexcept { return fracture_energy_; }
 
-    /// Energies of the last evaluation with energies, summed over the chunks in their order.
+    /// Energies of the last evaluation with WithEnergy, summed over the chunks in their order.
     pair_energy energy() const noexcept {
         pair_energy total;
         for (auto const& chunk : energy_) {
@@ -171,47 +176,50 @@ public:
         return total;
     }
 
-    /// \param limit of the overlap of two particles in contact, over the smaller radius, 1; infinite: none
+    /// Sets the overlap beyond which deep_overlap() reports a contact.
+    /// \param limit overlap over the smaller radius, 1; infinite: no limit
     void set_deepest_overlap(double limit) noexcept { deepest_ = Real(limit); }
-    /// Internal indices of two particles in contact that overlap by more than that, {-1, -1} when there are none.
+    /// Internal indices of two particles in contact that overlap by more than the limit; {-1, -1} if there are none.
     std::array<std::int32_t, 2> deep_overlap() const noexcept {
         for (auto const& pair : deep_overlap_)
             if (pair[0] >= 0) return pair;
         return {-1, -1};
     }
-    /// Lets evaluations note contacts that overlap by more than this share of the smaller radius; laws that stiffen.
+    /// Makes evaluations record contacts that overlap by more than this share of the smaller radius, 1. Only for laws
+    /// that stiffen.
     void watch_overlaps(double share) noexcept { watched_ = Real(share); }
-    /// The largest overlap that was noted since the last call, as a share of the smaller radius; 0: none.
+    /// Largest overlap recorded since the last call, as a share of the smaller radius, 1; 0: none. Resets the record.
     double take_deepest() noexcept {
         double deepest = 0;
         if constexpr (stiffens<ContactLaw, Dim>)
             for (auto& share : overlap_share_) deepest = std::max(deepest, double(std::exchange(share, Real(0))));
         return deepest;
     }
-    /// How much two particles that are no pair may still come closer before they could touch, m.
+    /// Distance by which two particles outside the candidate list may still approach before they could touch, m;
+    /// infinite without contacts.
     double remaining() const noexcept {
         return has_contacts() ? double(neighbors_.remaining())
                               : std::numeric_limits<double>::infinity();
     }
     bool has_contacts() const noexcept { return !is_absent<ContactLaw> && parameters_.contacts; }
 
-    /// Calls visit(pair_tangent) for every bond, then for the contacts that touch, or may under an assumption. The
-    /// stiffnesses are the laws' own derivatives.
+    /// Calls visit(pair_tangent) for every bond, then for the contacts that touch or may touch under the assumption.
+    /// The stiffnesses are derivatives of the laws.
     template <class Visit>
     void for_each_pair_tangent(store_type const& store, contact_assumption const& assumed, Visit const& visit) const {
         if constexpr (!is_absent<BondLaw>) visit_bond_tangents<BondLaw>(store, bonds_, bond_parameters_, visit);
         if constexpr (!is_absent<ContactLaw>)
             visit_contact_tangents<ContactLaw>(store, contacts_, contact_parameters_, assumed, visit);
     }
-    /// Calls visit(contact_seen, pair_stiffness) for the contacts that touch or may under an assumption.
+    /// Calls visit(contact_seen, pair_stiffness) for the contacts that touch or may touch under the assumption.
     template <class Visit>
     void for_each_depth(store_type const& store, contact_assumption const& assumed, Visit const& visit) const {
         visit_depths<ContactLaw>(store, contacts_, contact_parameters_, assumed, visit);
     }
 
-    /// Offset in force_column() of the force record of the pair (i, j), internal indices in any order; -1 if it is no
-    /// pair, or when forces are not kept. The force is the one on the lower-numbered particle; its fourth number is
-    /// the normal force.
+    /// Offset in force_column() of the force record of the pair (i, j), internal indices in any order. -1 if there is
+    /// no such pair, or if single forces are discarded. The record has the force on the lower-numbered particle; its
+    /// fourth number is the normal force.
     std::int32_t find_force(std::int32_t i, std::int32_t j) const noexcept {
         if (i > j) std::swap(i, j);
         std::int32_t slot = bonds_.find(i, j);
@@ -220,7 +228,7 @@ public:
         return slot >= 0 ? forces_.template find<pair_kind::contact>(i / chunk_particles, slot) : -1;
     }
     Real const* force_column() const noexcept { return forces_.column(); }
-    /// Place in normal_forces() of the normal force of the pair (i, j), internal indices in any order; 0 if it is no pair.
+    /// Index in normal_forces() of the pair (i, j), internal indices in any order; 0 if there is no such pair.
     std::int32_t find_normal_force(std::int32_t i, std::int32_t j) const noexcept {
         if (i > j) std::swap(i, j);
         std::int32_t slot = bonds_.find(i, j);
@@ -228,7 +236,7 @@ public:
         slot = contacts_.find(i, j);
         return slot >= 0 ? forces_.template find_normal<pair_kind::contact>(slot) : 0;
     }
-    /// Normal forces of all pairs, N, positive in tension, once keep_normal_forces() is called; the first is 0.
+    /// Normal forces of all pairs, N, positive in tension; the first is 0. Requires keep_normal_forces().
     Real const* normal_forces() const noexcept { return forces_.normals(); }
 
     bond_table const& bonds() const noexcept { return bonds_; }
@@ -236,7 +244,7 @@ public:
     std::span<bond_record const> bond_records() const noexcept { return bond_records_; }
     parameter_table<ContactLaw, Real> const& contact_parameters() const noexcept { return contact_parameters_; }
     parameter_table<BondLaw, Real> const& bond_parameters() const noexcept { return bond_parameters_; }
-    /// Row of bond_parameters() of a bond, by its number, intact or not.
+    /// Row in bond_parameters() of the bond with the given number, intact or not.
     std::size_t row_of_bond(store_type const& store, std::int32_t bond) const noexcept {
         auto const& ids = bond_records_[std::size_t(bond)].particles;
         auto const i = store.internal(std::size_t(ids[0])), j = store.internal(std::size_t(ids[1]));
@@ -251,6 +259,7 @@ private:
     using bond_entry = typename bond_table::entry;
     using pending_event = bond_failure<contact_entry, Dim>;
 
+    /// Makes the candidate list.
     /// \param bond length of the longest bond, m
     void make_neighbors(store_type const& store, Real bond) {
         Real const skin = Real(parameters_.skin) * median_radius(store.radii());
@@ -278,13 +287,15 @@ private:
         neighbors_.build_for_motion(store.positions(), store.radii());
         neighbors_.add(pairs_touching_apart(store, search, parameters_.initial_contact_tolerance));
     }
-    /// \param reach largest distance at which two particles meet, or length of a bond, m
+    /// Refuses a period so short that a particle could meet two images of the same partner.
+    /// \param reach largest distance at which two particles meet, or length of the longest bond, m
     static void require_long_period(Real length, Real reach) {
         if (!(length >= Real(2.01) * reach))
             refuse("domain.period", double(length),
                    "0 or at least 2.01 times the distance at which particles meet, " + to_text(2.01 * double(reach)));
     }
-    /// Contacts that act where no search looks stay, and those of bonds that have failed come.
+    /// Adds to the candidates the contacts that act beyond the range of the search: old ones, and those of failed
+    /// bonds.
     void hold_contacts(store_type const& store) {
         bool const may = parameters_.initial_contact_tolerance > 0 || bonds_.size() < bond_records_.size();
         if (!has_contacts() || !may) return;
@@ -326,7 +337,7 @@ private:
         if constexpr (carries_moment<BondLaw>) moments_.resize(bonds_.slots() * rotation_dim<Dim>);
         number_bonds(bond_records_, bonds_, store.size());
     }
-    /// The parameter row of a bond: its own, or its materials'.
+    /// Parameter row of a bond: its individual row, or the row of its materials.
     std::int32_t bond_row(store_type const& store, std::int32_t bond, std::int32_t i, std::int32_t j) const noexcept {
         return bond_rows_.empty() ? parameter_row(store, i, j) : bond_rows_[std::size_t(bond)];
     }
@@ -343,7 +354,7 @@ private:
 
     template <pair_kind Kind, class Table>
     chunk_output<Real> output(Table const& table, int chunk, std::vector<Real>& moments) noexcept {
-        return {forces_.template begin<Kind>(table, chunk), forces_.template places<Kind>(table, chunk),
+        return {forces_.template begin<Kind>(table, chunk), forces_.template offsets<Kind>(table, chunk),
                 forces_.template normals_of<Kind>(), moments.data()};
     }
     void note_overlaps(store_type const& store, int chunk, std::size_t pack) {
@@ -377,20 +388,20 @@ private:
     parameter_table<ContactLaw, Real> contact_parameters_;
     parameter_table<BondLaw, Real> bond_parameters_;
     verlet_list<search_type> neighbors_;
-    std::vector<neighbor_pair> held_; ///< buffer of hold_contacts()
+    std::vector<neighbor_pair> held_; // buffer of hold_contacts()
     bond_table bonds_;
     contact_table contacts_;
     force_buffer<Real, Dim> forces_;
-    std::vector<Real> moments_, contact_moments_; ///< on the first of each pair, by slot; of laws with moments only
+    std::vector<Real> moments_, contact_moments_; // on the first particle of each pair, by slot; laws with moments only
     std::vector<bond_record> bond_records_;
-    std::vector<std::int32_t> bond_rows_; ///< of each bond, where bonds have values of their own
+    std::vector<std::int32_t> bond_rows_; // parameter row of each bond; empty without individual values
     std::vector<contact_entry> broken_;
     std::vector<std::vector<pending_event>> chunk_events_;
     std::vector<break_event<Dim>> events_;
     std::vector<std::array<pair_energy, 3>> energy_; // of bonds, of contacts, correction for bonds that failed
     std::vector<std::array<std::int32_t, 2>> deep_overlap_;
-    Real deepest_ = 1; ///< overlap over the smaller radius, beyond which it is one of them
-    std::vector<Real> overlap_share_; ///< by chunk, the deepest overlap beyond watched_, over the smaller radius
+    Real deepest_ = 1; // overlap over the smaller radius beyond which deep_overlap_ lists a pair
+    std::vector<Real> overlap_share_; // by chunk, the deepest overlap beyond watched_, over the smaller radius
     Real watched_ = 1;
     std::array<double, 2> fracture_energy_{};
 };

@@ -12,13 +12,13 @@
 
 namespace lacuna {
 
-/// How bonds and contacts are written to a checkpoint and read back.
+/// Writes bonds and contacts to a checkpoint and reads them back.
 ///
-/// The tables follow from the candidates and from the bonds that are left: these and the histories are all there is
-/// to keep. Forces are not: the next step evaluates them, and until then they are zero in pairs that were read.
+/// A checkpoint has the candidates, the intact bonds and the histories; the tables follow from them. It has no forces:
+/// they are zero after reading, until the next step evaluates them.
 struct interactions_archive {
-    /// Writes to, or reads from, an archive what a run changes.
-    /// \throws std::runtime_error for a state that contradicts itself; the pairs are useless then
+    /// Writes the state that a run changes to an archive, or reads it from one.
+    /// \throws std::runtime_error for a state that contradicts itself; `pairs` must not be used afterwards
     template <class Archive, class Interactions, class Store>
     static void apply(Archive& ar, Interactions& pairs, Store const& store) {
         std::vector<std::int32_t> bonds;
@@ -33,7 +33,7 @@ struct interactions_archive {
     }
 
 private:
-    /// The histories of a table's packs, without those to spare: how many these are is no part of the state.
+    /// Histories of the packs in use. The number of spare packs is no part of the state.
     template <class Archive, class Table>
     static void apply_states(Archive& ar, Table& table) {
         auto const for_each = [&](auto const& visit) {
@@ -48,7 +48,7 @@ private:
         if constexpr (Archive::is_loading::value)
             for_each([&](std::size_t k, std::size_t p) { table.states().store(p, states.load(k)); });
     }
-    /// The tables of the state that is being read, still without its histories.
+    /// Builds the tables of the state that is being read. Their histories follow later.
     template <class Interactions, class Store>
     static void rebuild(Interactions& pairs, Store const& store, std::vector<std::int32_t> const& bonds,
                         std::vector<std::int8_t> const& states) {

@@ -6,7 +6,7 @@
 
 namespace lacuna {
 
-/// Place and motion of one partner of a pair, as the kinematics reads it.
+/// Position and motion of one partner of a pair: input of the kinematics.
 template <class T, int Dim>
 struct body {
     vec<T, Dim> position;           ///< m
@@ -16,25 +16,25 @@ struct body {
     T mass;                         ///< kg
 };
 
-/// Two bodies as their relative motion sees them.
+/// Relative position and motion of the two bodies of a pair.
 template <class T, int Dim>
 struct relative_state {
     vec<T, Dim> arm;                   ///< from i to j, m
-    vec<T, Dim> velocity;              ///< of j against i, m/s
+    vec<T, Dim> velocity;              ///< of j relative to i, m/s
     vec<T, rotation_dim<Dim>> rolling; ///< r_i w_i + r_j w_j, m/s
     T radii;                           ///< r_i + r_j, m
     T radius_i, radius_j;              ///< m
 };
 
-/// A pair's own frame, its relative motion in it, and how forces in the frame act on the two bodies.
+/// Frame of a pair, relative motion in that frame, and the conversion of forces in it to forces on the two bodies.
 template <class T, int Dim>
 struct pair_frame {
     using shear = vec<T, shear_dim<Dim>>;
     vec<T, Dim> normal;         ///< unit vector from i to j
-    pair_motion<T, Dim> motion; ///< what the laws read
+    pair_motion<T, Dim> motion; ///< input of the laws
     T lever;                    ///< lever arm over radius: distance / (r_i + r_j), the same for both bodies
     vec<T, 3> previous_normal;  ///< 3D only: normal one step ago
-    T twist;                    ///< 3D only: mean spin, weighted by radius, about the normal, times the step, rad
+    T twist;                    ///< 3D only: radius-weighted mean spin about the normal, times the time step, rad
 
     /// Force on body i (body j gets the opposite), N.
     vec<T, Dim> force(T normal_force, shear const& shear_force) const {
@@ -58,18 +58,18 @@ struct pair_frame {
         else
             return answer.bending_moment + normal * answer.twisting_moment;
     }
-    /// How the bodies turned against each other, from their spins (rad/s).
-    pair_rotation<T, Dim> turn(vec<T, rotation_dim<Dim>> const& spin_i, vec<T, rotation_dim<Dim>> const& spin_j,
-                           T const& time_step) const {
-        auto turned = (spin_j - spin_i) * time_step;
+    /// Rotation of body j relative to body i in the step, from their spins, rad/s.
+    pair_rotation<T, Dim> relative_rotation(vec<T, rotation_dim<Dim>> const& spin_i,
+                                            vec<T, rotation_dim<Dim>> const& spin_j, T const& time_step) const {
+        auto rotation = (spin_j - spin_i) * time_step;
         if constexpr (Dim == 2) {
-            return {turned, T(0), normal};
+            return {rotation, T(0), normal};
         } else {
-            T about = dot(normal, turned);
-            return {turned - normal * about, about, normal};
+            T about = dot(normal, rotation);
+            return {rotation - normal * about, about, normal};
         }
     }
-    /// A stored shear force, turned with the pair: by the change of its normal and by the mean spin about it.
+    /// Rotates a stored shear force with the pair: by the change of the normal and by the mean spin about the normal.
     shear rotate_with_pair(shear const& stored) const {
         if constexpr (Dim == 2) {
             return stored;
@@ -86,17 +86,18 @@ struct pair_frame {
 
 /// Relative motion of two bodies over the last step.
 ///
-/// The lever arms are d r_i/(r_i + r_j) and d r_j/(r_i + r_j): they add up to the distance d at any stretch, so
-/// that a rigid motion gives no slip, and forces conserve angular momentum, exactly. The slip is the distance
-/// times the angle by which the pair turned relative to its bodies. The angle is that between the normals of now
-/// and of one step ago, not velocity / distance, whose error of third order would add up over many turns.
+/// The lever arms are d r_i/(r_i + r_j) and d r_j/(r_i + r_j). They add up to the distance d at any stretch. Hence a
+/// rigid motion gives no slip, and forces conserve angular momentum, exactly. The slip is the distance times the angle
+/// by which the pair rotated relative to its bodies. The angle is measured between the present normal and the normal
+/// one step ago. Tangential velocity over distance would have an error of third order that adds up over many rotations.
+/// \param time_step length of the last step, s
 template <class T, int Dim>
 pair_frame<T, Dim> relative_motion(relative_state<T, Dim> const& state, T const& time_step) {
     // No local variable of this path is const: g++ 12 keeps const ones in memory once they are packs.
     auto arm = state.arm;
     auto step = state.velocity * time_step;
-    // The slip comes from quotients by the squared distance, which do not wait for the root. One division makes both
-    // inverses: it takes a processor as long as ten products.
+    // The slip divides by the squared distance and so need not wait for the root. One division gives both inverses,
+    // because a division takes a processor as long as ten products.
     T squared = squared_norm(arm);
     T inverse = T(1) / (squared * state.radii);
     T inverse_squared = inverse * state.radii;
@@ -113,8 +114,8 @@ pair_frame<T, Dim> relative_motion(relative_state<T, Dim> const& state, T const&
     frame.motion.normal_rate = dot(frame.normal, state.velocity);
     auto rolling = state.rolling * (time_step * inverse_radii);
     if constexpr (Dim == 2) {
-        // tan(angle) = (arm x step) / (arm . (arm - step)); the quotient by the geometric series, the arc tangent
-        // by its own: below 1e-12 relative for up to 1/100 rad per step.
+        // tan(angle) = (arm x step) / (arm . (arm - step)). The quotient uses the geometric series, the arc tangent its
+        // power series: the relative error is below 1e-12 up to 1/100 rad per step.
         T e = dot(arm, step) * inverse_squared;
         T t = cross(arm, step) * inverse_squared * ((T(1) + e) * (T(1) + e * e));
         T t2 = t * t;
@@ -132,7 +133,7 @@ pair_frame<T, Dim> relative_motion(relative_state<T, Dim> const& state, T const&
     return frame;
 }
 
-/// The same for two bodies.
+/// Relative motion of two bodies over the last step, from their single states.
 template <class T, int Dim>
 pair_frame<T, Dim> relative_motion(body<T, Dim> const& i, body<T, Dim> const& j, T time_step) {
     return relative_motion(relative_state<T, Dim>{j.position - i.position, j.velocity - i.velocity,

@@ -12,12 +12,12 @@
 
 namespace lacuna {
 
-/// Stiffness of a pair as a bound of the stable time step has to count with it, N/m.
+/// Stiffness of a pair that a bound of the stable time step has to assume, N/m.
 struct pair_stiffness {
     double normal, shear;
 };
 
-/// Tangent of one pair: how its forces change with the relative motion of its particles. SI units.
+/// Tangent stiffness of one pair: derivative of its forces by the relative motion of its particles.
 template <int Dim>
 struct pair_tangent {
     std::size_t i, j;        ///< internal indices
@@ -27,22 +27,23 @@ struct pair_tangent {
     double shear_stiffness;  ///< N/m
     double prestress;        ///< force of the pair over its distance, N/m
     double lever_i, lever_j; ///< from the centres to the point where the shear force acts, m
-    moment_stiffness<double> moments; ///< N m/rad; zero of laws that carry no moments
+    moment_stiffness<double> moments; ///< N m/rad; zero for laws that carry no moments
 };
 
-/// What a bound of the stable time step assumes of contacts until it is looked for again.
+/// Assumptions about contacts that hold until the bound of the stable time step is computed again.
 struct contact_assumption {
-    double gap = 0;     ///< pairs that are further apart, m, do not touch
-    double overlap = 0; ///< of laws that stiffen: contacts overlap by this share of the smaller radius, or more if they do now
+    double gap = 0;     ///< pairs with a larger gap do not touch, m
+    double overlap = 0; ///< laws that stiffen: least overlap of contacts, as a share of the smaller radius, 1
 };
 
-/// Tangent of a law by its own dual-number derivatives, at the given distance and without slip.
+/// Tangent of a law from its derivatives by dual numbers, at the given distance and without slip.
 ///
-/// A contact that is open is read as if it just touched. A constant that the law states as its stiffness counts if it is
-/// more: a contact that has yielded is let out stiffer than it is pressed in. Coupling between normal and shear enters
-/// both, which makes the diagonal pair an upper bound of the full tangent.
-/// \param bonded the pair was made at this distance, without force (a bond); else it touches at r_i + r_j
-/// \param least_overlap of a contact, m
+/// A contact with a gap counts as if it just touched. If the law states a larger constant as its stiffness, that
+/// constant counts: a yielded contact is stiffer in unloading than in loading. The coupling between normal and shear is
+/// added to both, so that the diagonal pair is an upper bound of the full tangent.
+/// \param distance m
+/// \param bonded the pair is a bond, without force at this distance; else it touches at r_i + r_j
+/// \param least_overlap a contact counts with at least this overlap, m
 template <class Law, int Dim, class Real>
 pair_stiffness law_stiffness(typename Law::template parameters<Real> const& parameters, double distance,
                              double radius_i, double radius_j, bool bonded, double least_overlap = 0) {
@@ -65,9 +66,9 @@ pair_stiffness law_stiffness(typename Law::template parameters<Real> const& para
     return {normal + coupling, std::fabs(answer.shear_force[0].derivative[1]) + coupling};
 }
 
-/// 	hrows std::invalid_argument for a contact law whose tangent at an overlap of a tenth of the radius is above that at
-///         first touch and above the constant that it states: no bound of the time step would follow it
-/// \param radius of the particles that it is tried with, m
+/// \throws std::invalid_argument for a contact law whose tangent at an overlap of a tenth of the radius is above that
+///         at first touch and above the constant that it states: no bound of the time step would follow it
+/// \param radius of the two particles of the trial, m
 template <class Law, int Dim, class Real>
 void require_stated_stiffness(typename Law::template parameters<Real> const& parameters, double radius) {
     if constexpr (!stiffens<Law, Dim>) {
@@ -80,12 +81,13 @@ void require_stated_stiffness(typename Law::template parameters<Real> const& par
     }
 }
 
-/// The smaller radius of a pair, m; at a wall, which has none, the particle's.
+/// Smaller radius of a pair, m. At a wall (radius_j = 0) it is the particle's radius.
 inline double smaller_radius(double radius_i, double radius_j) noexcept {
     return radius_j > 0 ? std::min(radius_i, radius_j) : radius_i;
 }
 
-/// Tangent of a contact that overlaps by `overlap`, m, negative for a gap, under an assumption.
+/// Tangent of a contact under an assumption.
+/// \param overlap m; negative: a gap
 template <class Law, int Dim, class Real>
 pair_stiffness contact_stiffness(typename Law::template parameters<Real> const& parameters, double overlap,
                                  double radius_i, double radius_j, contact_assumption const& assumed) {
@@ -93,16 +95,16 @@ pair_stiffness contact_stiffness(typename Law::template parameters<Real> const& 
     return law_stiffness<Law, Dim>(parameters, radius_i + radius_j - overlap, radius_i, radius_j, false, least);
 }
 
-/// A contact as the search for the overlaps to come sees it.
+/// One contact in the forecast of future overlaps.
 struct contact_seen {
     double overlap;        ///< m; negative: a gap
     double radius;         ///< the smaller one, m
     double effective_mass; ///< kg
-    double closing;        ///< speed at which the two come together, m/s; negative: apart
+    double closing;        ///< speed at which the two approach, m/s; negative: they separate
 };
 
-/// Calls use(slot, i, j, arm, distance, overlap) for the contacts of a table that touch or are not further apart than
-/// the gap of an assumption; the arm goes from i to j, m.
+/// Calls use(slot, i, j, arm, distance, overlap) for the contacts of a table that touch, or whose gap is at most that
+/// of the assumption. The arm points from i to j; lengths are in m.
 template <class Law, class Real, int Dim, class Table, class Use>
 void visit_contacts(particle_store<Real, Dim> const& store, Table const& table, contact_assumption const& assumed,
                     Use const& use) {
@@ -122,7 +124,7 @@ void visit_contacts(particle_store<Real, Dim> const& store, Table const& table, 
         }
 }
 
-/// Calls visit(contact_seen) for the contacts of a table that touch, or may under an assumption.
+/// Calls visit(contact_seen, pair_stiffness) for the contacts of a table that touch or may touch under the assumption.
 template <class Law, class Real, int Dim, class Table, class Parameters, class Visit>
 void visit_depths(particle_store<Real, Dim> const& store, Table const& table, Parameters const& parameters,
                   contact_assumption const& assumed, Visit const& visit) {
@@ -130,14 +132,16 @@ void visit_depths(particle_store<Real, Dim> const& store, Table const& table, Pa
                                                    double distance, double overlap) {
         double const ri = double(store.radius(i)), rj = double(store.radius(j));
         double const mi = double(store.mass(i)), mj = double(store.mass(j));
-        auto const way = convert<double>(store.velocity(i)) - convert<double>(store.velocity(j));
-        visit(contact_seen{overlap, smaller_radius(ri, rj), mi * mj / (mi + mj), dot(way, arm) / distance},
+        auto const approach = convert<double>(store.velocity(i)) - convert<double>(store.velocity(j));
+        visit(contact_seen{overlap, smaller_radius(ri, rj), mi * mj / (mi + mj), dot(approach, arm) / distance},
               contact_stiffness<Law, Dim>(parameters.row[std::size_t(table.parameter()[s])], overlap, ri, rj, assumed));
     });
 }
 
 /// Tangent of one pair in its present state.
-/// \param arm from i to j, m; \param distance its length, m; \param k its stiffness along the normal and across
+/// \param arm from i to j, m
+/// \param distance length of the arm, m
+/// \param k normal and shear stiffness of the pair, N/m
 template <class Law, class Real, int Dim, class Parameters, class State>
 pair_tangent<Dim> tangent_of(particle_store<Real, Dim> const& store, std::size_t i, std::size_t j, bool bonded,
                              vec<double, Dim> const& arm, double distance, pair_stiffness const& k, Parameters const& row,
@@ -173,7 +177,7 @@ void visit_bond_tangents(particle_store<Real, Dim> const& store, Table const& ta
     }
 }
 
-/// Calls visit(pair_tangent) for the contacts of a table that touch, or may under an assumption.
+/// Calls visit(pair_tangent) for the contacts of a table that touch or may touch under the assumption.
 template <class Law, class Real, int Dim, class Table, class Parameters, class Visit>
 void visit_contact_tangents(particle_store<Real, Dim> const& store, Table const& table, Parameters const& parameters,
                             contact_assumption const& assumed, Visit const& visit) {

@@ -18,7 +18,7 @@
 
 namespace lacuna {
 
-/// Parameters of a law for every pair of materials, and for single bonds that have their own.
+/// Parameters of a law: one row per pair of materials, and one per bond with individual values.
 template <class Law, class Real>
 struct parameter_table {
     template <class T>
@@ -29,9 +29,9 @@ struct parameter_table {
     void add(parameters_of<double> const& p) {
         row.push_back(convert_fields<Real, double, parameters_of<Real>>(p, [](double x) { return Real(x); }));
     }
-    /// The parameters of the pairs of one pack.
-    /// \param uniform row that all of them share, or -1
-    /// \param index row of each
+    /// Loads the parameters of the pairs of one pack.
+    /// \param uniform row that all pairs share, or -1
+    /// \param index row of each pair; read only if uniform is -1
     template <class Lanes>
     void load(parameters_of<Lanes>& to, std::int32_t uniform, std::int32_t const* index) const noexcept {
         constexpr std::size_t count = field_count<parameters_of, Real>;
@@ -48,10 +48,10 @@ struct parameter_table {
 
 /// Energies that one chunk of pairs adds to the ledger, J.
 struct pair_energy {
-    double stored = 0;     ///< elastic energy now
-    double dissipated = 0; ///< by sliding and crushing in this step
+    double stored = 0;     ///< present elastic energy
+    double dissipated = 0; ///< dissipated by sliding and crushing in this step
     double damped = 0;     ///< taken out by dashpots in this step
-    double in_bonds = 0;   ///< part of the elastic energy that is in bonds
+    double in_bonds = 0;   ///< part of the elastic energy that bonds store
 
     void operator+=(pair_energy const& other) noexcept {
         stored += other.stored;
@@ -61,11 +61,11 @@ struct pair_energy {
     }
 };
 
-/// The relative states of one pack of pairs.
+/// Relative states of one pack of pairs.
 ///
-/// With rotations kept as surface speeds, all of it but the single radii is a difference or a sum of the partners'
-/// records. One multiplication by a record of signs makes both at once, before the records are turned into packs.
-/// \param i, j where the partners' records begin
+/// Rotations are stored as surface speeds. Hence every value but the single radii is a difference or a sum of the
+/// partners' records. One multiplication by a record of signs gives both at once, before the records are transposed.
+/// \param i, j offsets of the partners' records, in reals
 template <class Lanes, class Real, int Dim>
 relative_state<Lanes, Dim> load_relative(particle_store<Real, Dim> const& store, std::uint32_t const* i,
                                          std::uint32_t const* j) noexcept {
@@ -95,7 +95,7 @@ relative_state<Lanes, Dim> load_relative(particle_store<Real, Dim> const& store,
     }
     return s;
 }
-/// The spin of one partner of each pair of a pack, rad/s.
+/// Spin of one partner of each pair of a pack, rad/s.
 template <class Lanes, class Real, int Dim>
 vec<Lanes, rotation_dim<Dim>> load_spin(particle_store<Real, Dim> const& store, std::uint32_t const* who,
                                         Lanes const& radius) noexcept {
@@ -107,14 +107,14 @@ vec<Lanes, rotation_dim<Dim>> load_spin(particle_store<Real, Dim> const& store, 
     else
         return {{speed[0] / radius, speed[1] / radius, speed[2] / radius}};
 }
-/// One body of a store, as plain numbers.
+/// One particle of a store as a body of the kinematics.
 template <class Real, int Dim>
 body<Real, Dim> load_body(particle_store<Real, Dim> const& store, std::size_t k) noexcept {
     return {store.position(k), store.velocity(k), store.spin(k), Real(store.bodies().at(k, 3)), store.mass(k)};
 }
 
-/// Writes the force record of one pair. Its fourth number, which no sum of forces reads, is the normal force: what
-/// the apertures of throats depend on.
+/// Writes the force record of one pair. Its fourth number is the normal force, on which the apertures of throats
+/// depend; sums of forces do not read it.
 template <class Real, int Dim>
 void store_pair_force(Real* to, vec<Real, Dim> const& force, vec<Real, rotation_dim<Dim>> const& torque,
                       Real normal_force) noexcept {
@@ -122,7 +122,7 @@ void store_pair_force(Real* to, vec<Real, Dim> const& force, vec<Real, rotation_
     for (int axis = 0; axis < rotation_dim<Dim>; ++axis) to[Dim == 2 ? 2 : 4 + axis] = torque[axis];
     to[3] = normal_force;
 }
-/// The same for one pack.
+/// Writes the force records of one pack of pairs.
 template <class Real, int Dim, class Lanes>
 void store_pair_forces(Real* to, vec<Lanes, Dim> const& force, vec<Lanes, rotation_dim<Dim>> const& torque,
                        Lanes const& normal_force) noexcept {
@@ -137,14 +137,14 @@ void store_pair_forces(Real* to, vec<Lanes, Dim> const& force, vec<Lanes, rotati
     }
 }
 
-/// Writes the moments on the first of each pair of a pack, rotation_dim numbers a slot.
+/// Writes the moments on the first particle of each pair of a pack; rotation_dim numbers per slot.
 template <class Real, class Lanes, int N>
 void store_moments(Real* to, std::size_t slot, vec<Lanes, N> const& moment) noexcept {
     for (int k = 0; k < Lanes::width; ++k)
         for (int axis = 0; axis < N; ++axis) to[(slot + std::size_t(k)) * std::size_t(N) + std::size_t(axis)] = moment[axis][k];
 }
 
-/// A law's answer to the motion of one pack of pairs; a law with moments also sees how the pair bends.
+/// Evaluates a law for one pack of pairs. A law with moments also gets the relative rotation of the particles.
 template <class Law, class Lanes, class Real, int Dim, class Parameters, class State>
 auto evaluate_law(Parameters const& law, pair_frame<Lanes, Dim> const& frame, State const& state,
                [[maybe_unused]] relative_state<Lanes, Dim> const& pair,
@@ -152,14 +152,14 @@ auto evaluate_law(Parameters const& law, pair_frame<Lanes, Dim> const& frame, St
                [[maybe_unused]] std::uint32_t const* j, [[maybe_unused]] Lanes const& time_step) noexcept {
     if constexpr (carries_moment<Law>)
         return Law::evaluate(law, frame.motion,
-                             frame.turn(load_spin<Lanes>(store, i, pair.radius_i), load_spin<Lanes>(store, j, pair.radius_j),
-                                        time_step),
+                             frame.relative_rotation(load_spin<Lanes>(store, i, pair.radius_i),
+                                                     load_spin<Lanes>(store, j, pair.radius_j), time_step),
                              state);
     else
         return Law::evaluate(law, frame.motion, state);
 }
 
-/// One pack of pairs as the kinematics sees it.
+/// Relative state and frame of one pack of pairs.
 template <class Lanes, int Dim>
 struct pair_view {
     static constexpr int dim = Dim;
@@ -167,7 +167,7 @@ struct pair_view {
     pair_frame<Lanes, Dim> frame;
 };
 
-/// The normal force of one pack of pairs with that of their dashpots.
+/// Normal force of one pack of pairs, the force of their dashpots included.
 template <pair_kind Kind, class Law, class Damping, class Lanes, class Parameters, class Frame, class State, class Table, class Store>
 Lanes with_dashpots(Lanes const& normal, typename Damping::parameters const& damping, Parameters const& law,
                     Frame const& frame, State const& state, Table const& table, Store const& store, std::size_t slot) noexcept {
@@ -186,8 +186,8 @@ Lanes with_dashpots(Lanes const& normal, typename Damping::parameters const& dam
         return normal + drag;
 }
 
-/// Asks memory for the pairs, and in space for their second particles, that come `ahead` packs later.
-/// \param pack_after callable: number of the pack that is read when pack p would be
+/// Prefetches the pairs that come `ahead` packs later and, in 3D, the second particles of pairs half as far ahead.
+/// \param pack_after callable: skips the spare packs of the chunk and returns the pack to read in place of pack p
 template <class Table, class Real, int Dim, class After>
 void prefetch_pairs(Table const& table, particle_store<Real, Dim> const& store, std::size_t p, std::size_t ahead,
                     After const& pack_after) noexcept {
@@ -201,23 +201,23 @@ void prefetch_pairs(Table const& table, particle_store<Real, Dim> const& store, 
         }
 }
 
-/// Where the pair loop writes the forces of one chunk.
+/// Output arrays of the pair loop for one chunk.
 template <class Real>
 struct chunk_output {
-    Real* forces;             ///< where the chunk's forces begin
-    force_offsets::row offsets; ///< of the packs' forces there; only `kept` and `first` are read
-    Real* normals;            ///< normal forces, by slot; nullptr: they are not written
-    Real* moments;            ///< moments on the first of each pair, rotation_dim numbers a slot; laws with moments only
+    Real* forces;               ///< first force record of the chunk
+    force_offsets::row offsets; ///< offsets of the packs' forces from there; only `window` and `first` are read
+    Real* normals;              ///< normal forces, by slot; nullptr: not written
+    Real* moments;              ///< moments on the first particles, rotation_dim numbers a slot; laws with moments only
 };
 
-/// Overlaps of contacts that the pair loop reports, over the smaller radius, 1.
+/// Overlaps beyond which the pair loop reports a contact, over the smaller radius, 1.
 template <class Real>
 struct overlap_limits {
-    Real deepest = 1; ///< deeper than a run may go
-    Real watched = 1; ///< for laws that stiffen: deeper than the time step was chosen for
+    Real deepest = 1; ///< largest overlap that a run allows
+    Real watched = 1; ///< laws that stiffen: largest overlap for which the time step was chosen
 };
 
-/// Whether a pair of a pack has failed, or a contact of it exceeds a limit.
+/// Whether a bond of a pack has failed, or a contact of the pack exceeds a limit.
 template <pair_kind Kind, class Law, class Answer, class View, class State, class Real>
 bool has_event([[maybe_unused]] Answer const& answer, [[maybe_unused]] View const& view, [[maybe_unused]] State const& state,
                [[maybe_unused]] overlap_limits<Real> const& limits) noexcept {
@@ -235,13 +235,13 @@ bool has_event([[maybe_unused]] Answer const& answer, [[maybe_unused]] View cons
     }
 }
 
-/// Forces and new histories of one chunk of pairs: kinematics, law, history, forces.
+/// Evaluates one chunk of pairs: kinematics, law, history, forces.
 ///
-/// The law's formula is instantiated with packs here; this loop is the only one over pairs in the step.
-/// \tparam WithEnergy sum up energies too
-/// \tparam Commit store the new histories and report events; false: forces alone, for a trial
-/// \param ahead prefetches what the next chunks read
-/// \param on_event called as on_event(pack) after a pack in which a bond has failed, or a contact exceeds a limit; rare
+/// The law's formula is instantiated with packs here. This is the only loop over pairs in the step.
+/// \tparam WithEnergy whether energies are summed up too
+/// \tparam Commit true: stores the new histories and reports events; false: forces alone, for a trial
+/// \param ahead prefetches data that the next chunks read
+/// \param on_event called as on_event(pack) after a pack in which a bond has failed or a contact exceeds a limit; rare
 template <pair_kind Kind, bool WithEnergy, bool Commit, class Law, class Damping, class Domain, class Real, int Dim, class OnEvent>
 [[gnu::noinline, gnu::flatten]] void
 evaluate_chunk(pair_table<Law, Real, Dim>& table, int chunk, parameter_table<Law, Real> const& parameters,
@@ -255,7 +255,7 @@ evaluate_chunk(pair_table<Law, Real, Dim>& table, int chunk, parameter_table<Law
     lanes stored(Real(0)), dissipated(Real(0)), damped(Real(0));
     auto& states = table.states();
     Real* const forces = out.forces;
-    std::size_t offset = out.offsets.first, kept = out.offsets.kept;
+    std::size_t offset = out.offsets.first, window = out.offsets.window;
     typename Law::template parameters<lanes> law{};
     std::int32_t loaded = -2; // row of parameters
     auto const load_pair = [&](std::size_t p) {
@@ -263,13 +263,13 @@ evaluate_chunk(pair_table<Law, Real, Dim>& table, int chunk, parameter_table<Law
         if constexpr (Domain::periodic) pair.arm = store.period().shortest(pair.arm);
         return pair_view<lanes, Dim>{pair, relative_motion(pair, dt)};
     };
-    // The kinematics of the next pack goes before the law of this one: a pack is one long chain of operations, each of
-    // which waits for the one before, and the processor does not look far enough ahead to begin another by itself. In
-    // space there are not enough registers for two.
+    // The kinematics of the next pack comes before the law of this one. A pack is one long chain of dependent
+    // operations, and the processor does not look far enough ahead to start the next chain by itself. In 3D there are
+    // not enough registers for two packs.
     constexpr bool looks_ahead = Dim == 2;
     pair_view<lanes, Dim> next{};
     std::size_t const first = table.first_pack(chunk), end = table.end_pack(chunk);
-    // Beyond the end go the packs of the next chunk, behind those that this one has to spare.
+    // The packs of the next chunk follow the spare packs of this one.
     auto const pack_after = [end, spare = table.first_pack(chunk + 1) - end](std::size_t p) { return p < end ? p : p + spare; };
     if (looks_ahead && first < end) next = load_pair(first);
     for (std::size_t p = first; p < end; ++p) {
@@ -297,7 +297,7 @@ evaluate_chunk(pair_table<Law, Real, Dim>& table, int chunk, parameter_table<Law
         if constexpr (Commit) states.store(p, answer.history);
         store_pair_forces<Real, Dim>(forces + stride * W * offset, frame.force(normal, answer.shear_force),
                                      frame.torque_per_radius(answer.shear_force), normal);
-        if (++offset == kept) offset = 0;
+        if (++offset == window) offset = 0;
         if (out.normals) normal.store(out.normals + slot);
         if constexpr (carries_moment<Law>) store_moments(out.moments, slot, frame.moment(answer));
         if constexpr (WithEnergy && states_energies<Law, Dim>)

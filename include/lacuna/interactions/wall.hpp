@@ -9,11 +9,11 @@
 
 namespace lacuna {
 
-/// A rigid, infinite plane. Particles are on the side to which its normal points.
+/// A rigid, infinite plane. Particles are on the side into which its normal points.
 template <class ContactLaw, int Dim>
 struct wall {
-    vec<double, Dim> point{};  ///< on the plane, m
-    vec<double, Dim> normal{}; ///< any length > 0
+    vec<double, Dim> point{};  ///< any point of the plane, m
+    vec<double, Dim> normal{}; ///< of any finite length > 0
     typename ContactLaw::material material{};
 
     void validate(std::string const& name) const {

@@ -16,19 +16,21 @@
 
 namespace lacuna {
 
-/// Contacts of particles with walls, by the model's contact law. To the law a wall is a body of radius 0 at the
-/// particle's foot point: the lever arm is the particle's distance from the plane. Walls stand still unless they are
-/// given velocities; they do not turn.
+/// Contacts of particles with walls, by the model's contact law. For the law a wall is a body of radius 0 at the foot
+/// point of the particle: the lever arm is the particle's distance from the plane. Walls stand still unless
+/// set_velocity() moves them. They do not rotate.
 template <class ContactLaw, class Damping, class Real, int Dim>
 class wall_contacts {
 public:
     using wall_type = wall<ContactLaw, Dim>;
     template <class T>
     using history_of = typename ContactLaw::template history<T, Dim>;
-    /// Particles whose paths are counted together: add_path().
+    /// Number of particles in a block; add_path() counts one path per block.
     static constexpr std::size_t block_particles = 128;
 
     wall_contacts() = default;
+    /// \param thickness of a 2D packing, m
+    /// \throws std::invalid_argument as wall::validate()
     wall_contacts(std::span<wall_type const> walls, std::span<typename ContactLaw::material const> materials,
                   double thickness)
         : walls_(walls.begin(), walls.end()), materials_(materials.size()), motion_(walls.size()), force_(walls.size()),
@@ -42,12 +44,13 @@ public:
     }
 
     bool empty() const noexcept { return walls_.empty(); }
-    /// Counts what the particles of a block have moved in a step, at most, m. Due after each step for each block.
+    /// Adds the largest displacement of a block's particles in a step, m. Call it after each step for each block.
     void add_path(std::size_t block, Real path) noexcept {
         if (block < path_.size()) path_[block] += path;
     }
-    /// Whether a particle, or wall, may have moved so far since update() that a contact is not listed. Where paths leave it
-    /// open, it looks at the particles of the block: a fast one has no others looked at.
+    /// Whether particles or walls may have moved so far since update() that the list lacks a contact. If the path of a
+    /// block does not decide this, the function checks the positions of its particles. Thus one fast particle makes it
+    /// check one block only.
     bool outdated(particle_store<Real, Dim> const& store) {
         if (empty()) return false;
         if (reach_ < 0) return true;
@@ -61,14 +64,16 @@ public:
         return false;
     }
 
-    /// Lists the particles that may touch a wall before they have moved by `reach`, keeping known histories.
-    /// \param tolerance of the first list: those whose gap or overlap is below this fraction of their radius start as
-    ///        touching at zero force, at the distance they have
+    /// Lists the particles that may touch a wall before they have moved by `reach`. Listed contacts keep their
+    /// histories.
+    /// \param reach m
+    /// \param tolerance only for the first list, 1: particles whose gap or overlap is at most this fraction of their
+    ///        radius start as touching, with zero force at that distance
     void update(particle_store<Real, Dim> const& store, Real reach, Real tolerance = 0) {
         bool const first = reach_ < 0;
         reach_ = reach;
         walls_path_ = 0;
-        std::vector<near_wall> fresh;
+        std::vector<near_wall> listed;
         std::size_t old = 0;
         for (std::size_t w = 0; w < walls_.size(); ++w)
             for (std::size_t k = 0; k < store.size(); ++k) {
@@ -80,17 +85,20 @@ public:
                 if (!close) continue;
                 bool const touches = first && std::abs(distance - r) <= tolerance * r;
                 Real const start = touches ? distance : r;
-                fresh.push_back(known ? near_[old] : near_wall{w, k, ContactLaw::template initial<Real, Dim>(start, r)});
+                listed.push_back(known ? near_[old] : near_wall{w, k, ContactLaw::template initial<Real, Dim>(start, r)});
             }
-        near_ = std::move(fresh);
+        near_ = std::move(listed);
         std::size_t const blocks = (store.size() + block_particles - 1) / block_particles;
         path_.assign(blocks, Real(0));
         room_.resize(blocks);
         for (std::size_t b = 0; b < blocks; ++b) room_[b] = clearance_of(store, b);
     }
 
-    /// Adds the forces of the walls to `out`: a record {F_x, F_y, torque over radius, 0} per particle in 2D, two
-    /// records (force, torque over radius) in 3D.
+    /// Adds the forces of the walls on the particles to `out`, and their energies to `energy`.
+    /// \param time_step length of the last step, s
+    /// \param out in 2D one record {F_x, F_y, torque over radius, 0} per particle; in 3D two records (force, torque
+    ///        over radius); N
+    /// \param energy overwritten
     /// \return internal index of a particle whose centre is beyond a wall, or -1
     std::int32_t evaluate(particle_store<Real, Dim> const& store, Real time_step,
                           typename Damping::parameters const& damping, record_column<Real>& out, pair_energy& energy) {
@@ -107,23 +115,23 @@ public:
             auto const wall_velocity = convert<Real>(motion_[n.plane].velocity);
             auto const velocity = i.velocity - wall_velocity;
             body<Real, Dim> const j{i.position - normal * distance, wall_velocity, {}, Real(0), i.mass};
-            // The foot point follows the particle along the wall, so the pair never turns: the slip is the
-            // particle's own motion against the plane.
+            // The foot point follows the particle along the wall, so the pair never rotates: the slip is the motion of
+            // the particle relative to the plane.
             auto frame = relative_motion(i, j, time_step);
             frame.normal = -normal;
             frame.motion.distance = distance;
             frame.motion.normal_rate = dot(normal, velocity);
             frame.motion.slip = slip(velocity, i.spin, normal, distance, time_step);
-            turn(n.state, frame, i.spin, time_step);
+            rotate_history(n.state, frame, i.spin, time_step);
             auto const& law = row_of(store, n);
             if constexpr (stiffens<ContactLaw, Dim>)
                 deepest_ = std::max(deepest_, double((touching_distance_of(frame.motion, n.state) - distance) / i.radius));
-            auto const answer = answer_to(law, frame, n.state, i.spin, time_step);
+            auto const answer = evaluate_law(law, frame, n.state, i.spin, time_step);
             Real normal_force = answer.normal_force;
             if (normal_force < 0)
                 stiffness_[n.plane] += double(dashpot_stiffness<ContactLaw>(law, frame.motion, n.state));
             if constexpr (Damping::acts_on_pairs) {
-                // A wall has no mass of its own to share the motion: the effective mass is the particle's.
+                // A wall counts as infinitely heavy: the effective mass of the pair is the particle's mass.
                 Real const drag = Damping::pair_force(damping, dashpot_stiffness<ContactLaw>(law, frame.motion, n.state),
                                                       2 * i.mass, 2 * i.mass, frame.motion.normal_rate);
                 if (normal_force < 0)
@@ -160,14 +168,14 @@ public:
     /// \{
     vec<double, Dim> point(std::size_t w) const noexcept { return motion_[w].point; }
     vec<double, Dim> normal(std::size_t w) const noexcept { return walls_[w].normal; }
-    /// Of the last step, m/s.
+    /// Velocity in the last step, m/s.
     vec<double, Dim> velocity(std::size_t w) const noexcept { return motion_[w].velocity; }
-    /// Of the next step.
+    /// Velocity in the next step, m/s.
     vec<double, Dim> next_velocity(std::size_t w) const noexcept { return motion_[w].next; }
     void set_velocity(std::size_t w, vec<double, Dim> const& v) noexcept { motion_[w].next = v; }
-    /// Moves the walls on by a step.
-    /// \return power of the walls against the forces of the last evaluation, with the velocities of the step before it
-    ///         and of this one, W
+    /// Moves the walls by one step.
+    /// \return power of the walls against the forces of the last evaluation, W: with the velocities of the last step,
+    ///         and with those of this step
     std::array<double, 2> advance(double time_step) noexcept {
         std::array<double, 2> power{};
         double farthest = 0;
@@ -176,9 +184,9 @@ public:
             power[0] -= dot(force_[w], m.velocity);
             m.velocity = m.next;
             power[1] -= dot(force_[w], m.velocity);
-            auto const way = m.velocity * time_step;
-            m.point += way;
-            farthest = std::max(farthest, norm(way));
+            auto const displacement = m.velocity * time_step;
+            m.point += displacement;
+            farthest = std::max(farthest, norm(displacement));
         }
         walls_path_ += Real(farthest);
         return power;
@@ -189,7 +197,7 @@ public:
         for (auto const& m : motion_) most = std::max(most, norm(m.next));
         return most;
     }
-    /// The same of the last step, m/s.
+    /// Largest speed of a wall in the last step, m/s.
     double fastest() const noexcept {
         double most = 0;
         for (auto const& m : motion_) most = std::max(most, norm(m.velocity));
@@ -197,17 +205,18 @@ public:
     }
     /// \}
 
-    /// How far particles and walls may still come together before one touches that is not listed, m.
+    /// Distance by which particles and walls may still approach before a contact arises that is not listed, m.
     double remaining() const noexcept {
         Real least = std::numeric_limits<Real>::infinity();
         for (std::size_t b = 0; b < path_.size(); ++b) least = std::min(least, room_[b] - path_[b]);
         return std::max(double(least) - double(walls_path_), 0.0);
     }
-    /// What the largest overlap in the evaluations since the last call was, as a share of the radius; laws that stiffen.
+    /// Largest overlap in the evaluations since the last call, as a share of the radius, 1. Only for laws that stiffen.
+    /// Resets the record.
     double take_deepest() noexcept { return std::exchange(deepest_, 0.0); }
 
-    /// Calls visit(particle, normal, normal_stiffness, shear_stiffness, lever) for each particle that touches a wall, or
-    /// may under an assumption.
+    /// Calls visit(particle, normal, normal_stiffness, shear_stiffness, lever) for each particle that touches a wall or
+    /// may touch one under the assumption; N/m, m.
     template <class Visit>
     void for_each_stiffness(particle_store<Real, Dim> const& store, contact_assumption const& assumed, Visit const& visit) const {
         visit_near(store, assumed, [&](near_wall const& n, double r, double distance, double overlap) {
@@ -215,16 +224,16 @@ public:
             visit(n.particle, walls_[n.plane].normal, k.normal, k.shear, std::max(distance, 0.0));
         });
     }
-    /// Calls visit(contact_seen, pair_stiffness) for the same.
+    /// Calls visit(contact_seen, pair_stiffness) for the same contacts.
     template <class Visit>
     void for_each_depth(particle_store<Real, Dim> const& store, contact_assumption const& assumed, Visit const& visit) const {
         visit_near(store, assumed, [&](near_wall const& n, double r, double, double overlap) {
-            auto const way = motion_[n.plane].next - convert<double>(store.velocity(n.particle));
-            visit(contact_seen{overlap, r, double(store.mass(n.particle)), dot(way, walls_[n.plane].normal)},
+            auto const approach = motion_[n.plane].next - convert<double>(store.velocity(n.particle));
+            visit(contact_seen{overlap, r, double(store.mass(n.particle)), dot(approach, walls_[n.plane].normal)},
                   contact_stiffness<ContactLaw, Dim>(row_of(store, n), overlap, r, 0.0, assumed));
         });
     }
-    /// Calls visit(particle, normal, moment_stiffness) for the same; laws with moments.
+    /// Calls visit(particle, normal, moment_stiffness) for the same contacts. Only for laws with moments.
     template <class Visit>
     void for_each_moment_stiffness([[maybe_unused]] particle_store<Real, Dim> const& store,
                                    [[maybe_unused]] contact_assumption const& assumed,
@@ -236,9 +245,9 @@ public:
             });
     }
     std::size_t size() const noexcept { return walls_.size(); }
-    /// What the law reads of a particle's material against a wall.
+    /// Parameters of the contact law between a wall and a material of the particles.
     auto const& parameters(std::size_t w, std::size_t material) const noexcept { return parameters_.row[w * materials_ + material]; }
-    /// Writes or reads what a run changes.
+    /// Writes the state that a run changes to an archive, or reads it from one.
     template <class Archive>
     void archive(Archive& ar, particle_store<Real, Dim> const& store) {
         ar(near_, fixed_length{force_}, fixed_length{motion_}, reach_, fixed_length{path_}, fixed_length{room_}, walls_path_);
@@ -253,7 +262,7 @@ private:
         bool before(std::size_t w, std::size_t k) const noexcept { return plane < w || (plane == w && particle < k); }
     };
 
-    /// Smallest gap between a wall and a particle of a block that is not listed there.
+    /// Smallest gap between a wall and a particle of a block whose contact is not listed, m.
     Real clearance_of(particle_store<Real, Dim> const& store, std::size_t block) const noexcept {
         Real clearance = std::numeric_limits<Real>::infinity();
         std::size_t const first = block * block_particles, last = std::min(first + block_particles, store.size());
@@ -265,7 +274,7 @@ private:
                     continue;
                 }
                 Real const gap = height(store.position(k), w) - store.radius(k);
-                clearance = gap >= clearance ? clearance : gap; // a position that is no number leaves none
+                clearance = gap >= clearance ? clearance : gap; // a NaN position must make the clearance NaN
             }
         }
         return clearance;
@@ -273,7 +282,7 @@ private:
     auto const& row_of(particle_store<Real, Dim> const& store, near_wall const& n) const noexcept {
         return parameters(n.plane, std::size_t(store.material(n.particle)));
     }
-    /// Calls use(entry, radius, distance, overlap) for the particles that touch a wall or may under an assumption.
+    /// Calls use(entry, radius, distance, overlap) for the particles that touch a wall or may under the assumption; m.
     template <class Use>
     void visit_near(particle_store<Real, Dim> const& store, contact_assumption const& assumed, Use const& use) const {
         for (auto const& n : near_) {
@@ -283,10 +292,11 @@ private:
             if (-overlap <= assumed.gap) use(n, double(still.radius_i), distance, overlap);
         }
     }
-    /// What a contact in space remembers turns about the normal by the mean of the spins of particle and wall, which has
-    /// none; the normal stays.
-    static void turn([[maybe_unused]] history_of<Real>& state, [[maybe_unused]] pair_frame<Real, Dim>& frame,
-                     [[maybe_unused]] vec<Real, rotation_dim<Dim>> const& spin, [[maybe_unused]] Real time_step) {
+    /// Rotates the history of a contact in 3D about the normal by the mean spin of particle and wall. The wall has no
+    /// spin, and the normal does not change.
+    static void rotate_history([[maybe_unused]] history_of<Real>& state, [[maybe_unused]] pair_frame<Real, Dim>& frame,
+                               [[maybe_unused]] vec<Real, rotation_dim<Dim>> const& spin,
+                               [[maybe_unused]] Real time_step) {
         if constexpr (Dim == 3) {
             frame.previous_normal = frame.normal;
             frame.twist = Real(0.5) * dot(spin, frame.normal) * time_step;
@@ -295,10 +305,10 @@ private:
         }
     }
     template <class Parameters>
-    static auto answer_to(Parameters const& law, pair_frame<Real, Dim> const& frame, history_of<Real> const& state,
+    static auto evaluate_law(Parameters const& law, pair_frame<Real, Dim> const& frame, history_of<Real> const& state,
                           [[maybe_unused]] vec<Real, rotation_dim<Dim>> const& spin, [[maybe_unused]] Real time_step) {
         if constexpr (carries_moment<ContactLaw>)
-            return ContactLaw::evaluate(law, frame.motion, frame.turn(spin, {}, time_step), state);
+            return ContactLaw::evaluate(law, frame.motion, frame.relative_rotation(spin, {}, time_step), state);
         else
             return ContactLaw::evaluate(law, frame.motion, state);
     }
@@ -308,7 +318,8 @@ private:
             h += (double(x[axis]) - motion_[w].point[axis]) * walls_[w].normal[axis];
         return Real(h);
     }
-    /// \param velocity of the particle against the wall
+    /// Slip of a step, m.
+    /// \param velocity of the particle relative to the wall, m/s
     static vec<Real, shear_dim<Dim>> slip(vec<Real, Dim> const& velocity, vec<Real, rotation_dim<Dim>> const& spin,
                                           vec<Real, Dim> const& normal, Real distance, Real time_step) {
         if constexpr (Dim == 2) {
@@ -323,7 +334,7 @@ private:
     std::size_t materials_ = 0;
     parameter_table<ContactLaw, Real> parameters_;
     std::vector<near_wall> near_;
-    /// Where a wall is, how it moved in the last step, and how it moves in the next.
+    /// Position of a wall and its velocities in the last and in the next step; m, m/s.
     struct wall_motion {
         vec<double, Dim> point{}, velocity{}, next{};
     };
@@ -331,9 +342,9 @@ private:
     std::vector<vec<double, Dim>> force_;
     std::vector<double> stiffness_;
     double deepest_ = 0;
-    Real reach_ = -1; ///< of the list; negative: none was made yet
-    std::vector<Real> path_, room_; ///< of the particles of each block since the last look, and what it may be
-    Real walls_path_ = 0;           ///< of the fastest wall, since update()
+    Real reach_ = -1; // of the list; negative: there is no list yet
+    std::vector<Real> path_, room_; // by block: path of the particles since the last check, and its limit
+    Real walls_path_ = 0;           // path of the fastest wall since update()
 };
 
 } // namespace lacuna

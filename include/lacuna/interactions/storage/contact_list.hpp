@@ -18,7 +18,7 @@
 
 namespace lacuna {
 
-/// The candidates of one chunk that are not bonded, as pair_table::merge() takes them.
+/// The candidates of one chunk that are not bonded: the `wanted` pairs of pair_table::merge().
 template <class Bonds>
 class unbonded_candidates {
 public:
@@ -36,7 +36,7 @@ public:
             if (bond == bonds_end_ || !bonds_.is(bond, *pair)) visit(*pair);
         }
     }
-    /// Until visit() returns false.
+    /// From the last pair to the first, until visit() returns false.
     template <class Visit>
     void backward(Visit const& visit) const {
         std::size_t end = bonds_end_;
@@ -54,20 +54,19 @@ private:
     std::size_t bonds_begin_, bonds_end_;
 };
 
-/// Makes the pairs of a table the candidates of a neighbour list without the bonded ones. Each has the history it had,
-/// or a new one. No allocation while they fit into the table's chunks.
+/// Makes the contact table hold exactly the candidates of a neighbour list that are not bonded. A pair that is already
+/// in the table keeps its history. Allocates nothing while the pairs fit into the table's chunks.
 /// \param candidates sorted by (i, j)
-/// \param bonds the table of bonds
-/// \param added pairs that were in no table of contacts, with a history; sorted by (i, j)
-/// \param contacts the table
-/// \param store of the particles
-/// \param threads how many may work on it
-/// \param make callable neighbor_pair -> entry, for pairs that were not known before
+/// \param bonds table of bonds
+/// \param added entries with a history for pairs that are not in the table yet; sorted by (i, j)
+/// \param contacts table to change
+/// \param threads number of threads to use
+/// \param make callable neighbor_pair -> entry, for pairs that are neither in the table nor in `added`
 template <class Bonds, class Contacts, class Real, int Dim, class Make>
 void merge_contacts(std::vector<neighbor_pair> const& candidates, Bonds const& bonds,
                     std::vector<typename Contacts::entry> const& added, Contacts& contacts,
                     particle_store<Real, Dim> const& store, int threads, Make const& make) {
-    auto const make_or_take = [&](neighbor_pair const& pair) {
+    auto const find_or_make = [&](neighbor_pair const& pair) {
         auto const found = std::partition_point(added.begin(), added.end(), [&](auto const& e) {
             return e.i < pair.i || (e.i == pair.i && e.j < pair.j);
         });
@@ -76,7 +75,7 @@ void merge_contacts(std::vector<neighbor_pair> const& candidates, Bonds const& b
     auto const merge = [&] {
         std::atomic<bool> fits = true;
         for_each_chunk(Contacts::chunks_of(store.size()), threads, [&](int c) {
-            if (!contacts.merge(c, unbonded_candidates(candidates, bonds, c), store, make_or_take)) fits = false;
+            if (!contacts.merge(c, unbonded_candidates(candidates, bonds, c), store, find_or_make)) fits = false;
         });
         return bool(fits);
     };
@@ -89,7 +88,7 @@ void merge_contacts(std::vector<neighbor_pair> const& candidates, Bonds const& b
     merge();
 }
 
-/// Overlap of two particles, by internal index, over the smaller radius, 1; negative for a gap.
+/// Overlap of two particles over the smaller radius, 1; negative: a gap. The indices are internal.
 template <class Real, int Dim>
 Real overlap_of(particle_store<Real, Dim> const& store, std::int32_t first, std::int32_t second) noexcept {
     auto const i = std::size_t(first), j = std::size_t(second);
@@ -97,15 +96,17 @@ Real overlap_of(particle_store<Real, Dim> const& store, std::int32_t first, std:
     return (store.radius(i) + store.radius(j) - distance) / std::min(store.radius(i), store.radius(j));
 }
 
-/// Whether a pair of the initial packing touches at zero force at the distance it has: its gap or overlap is at most
-/// `tolerance` times the smaller radius, but for rounding.
+/// Whether a pair of the initial packing touches with zero force at its present distance. This holds if its gap or
+/// overlap is at most `tolerance` times the smaller radius, up to rounding.
+/// \param distance present distance of the centres, m
 template <class Real, int Dim>
 bool starts_touching(particle_store<Real, Dim> const& store, neighbor_pair const& pair, double tolerance, Real distance) {
     Real const ri = store.radius(std::size_t(pair.i)), rj = store.radius(std::size_t(pair.j));
     return abs(distance - (ri + rj)) <= Real(tolerance) * std::min(ri, rj) + touching_slack<Real> * (ri + rj);
 }
 
-/// History of a pair that becomes a candidate: it touches at r_i + r_j, or, where starts_touching(), at the distance it has.
+/// History of a pair that becomes a candidate. It touches at r_i + r_j or, if starts_touching(), at its present
+/// distance.
 template <class Law, class Real, int Dim>
 auto first_history(particle_store<Real, Dim> const& store, neighbor_pair const& pair, double tolerance) {
     auto const i = std::size_t(pair.i), j = std::size_t(pair.j);
@@ -118,8 +119,10 @@ auto first_history(particle_store<Real, Dim> const& store, neighbor_pair const& 
     return Law::template initial<Real, Dim>(start, touching);
 }
 
-/// The pairs with a gap that start as touching. Each is sought by its own radii: a large particle has no others look further.
+/// The pairs with a gap that start as touching. The search uses the radii of each pair, so that one large particle does
+/// not widen the search for the others.
 /// \param search made for the domain of the particles
+/// \param tolerance as for starts_touching()
 /// \return sorted by (i, j)
 template <class Search, class Real, int Dim>
 std::vector<neighbor_pair> pairs_touching_apart(particle_store<Real, Dim> const& store, Search& search, double tolerance) {
@@ -130,7 +133,7 @@ std::vector<neighbor_pair> pairs_touching_apart(particle_store<Real, Dim> const&
         second = std::max(second, std::min(first, r));
         first = std::max(first, r);
     }
-    // Half the tolerance each, and the largest one no more than it needs with the one that comes next.
+    // Each particle gets half the tolerance. The largest gets no more than it needs with the second largest.
     std::vector<Real> reach;
     for (Real const r : store.radii())
         reach.push_back((r + Real(tolerance / 2) * std::min(r, second)) * (1 + 2 * touching_slack<Real>));
@@ -143,24 +146,24 @@ std::vector<neighbor_pair> pairs_touching_apart(particle_store<Real, Dim> const&
     return pairs;
 }
 
-/// Whether a contact may have a force beyond r_i + r_j, where no search looks for it, because it carries on from the initial
-/// packing or from a bond. Laws that name `touching_distance` in their history the distance at which the force begins set
-/// it to r_i + r_j once the pair has come apart; of others it is asked what they answer a little closer.
+/// Whether a contact may have a force beyond r_i + r_j, the range of the search. Such contacts come from the initial
+/// packing or from a bond. If the law's history has a `touching_distance`, the force begins there; the law resets it to
+/// r_i + r_j once the pair separates. Other laws are evaluated at a slightly smaller distance.
 template <class Law, class Real, int Dim, class Parameters, class Entry>
 bool acts_apart(particle_store<Real, Dim> const& store, Parameters const& parameters, Entry const& contact) {
     Real const ri = store.radius(std::size_t(contact.i)), rj = store.radius(std::size_t(contact.j));
     if constexpr (requires { contact.state.touching_distance; }) {
         return contact.state.touching_distance > ri + rj;
     } else {
-        auto const way = store.position(std::size_t(contact.j)) - store.position(std::size_t(contact.i));
-        Real const distance = norm(store.nearest(way));
+        auto const arm = store.position(std::size_t(contact.j)) - store.position(std::size_t(contact.i));
+        Real const distance = norm(store.nearest(arm));
         pair_motion<Real, Dim> const closer{distance * (1 - 64 * std::numeric_limits<Real>::epsilon()), ri, rj, {}, Real(0)};
         return distance > ri + rj && Law::evaluate(parameters, closer, contact.state).normal_force != Real(0);
     }
 }
 
-/// Of the contacts of one pack, two particles that overlap by more than `limit` times the smaller radius, by internal
-/// index; else {-1, -1}.
+/// Looks in one pack of contacts for an overlap above `limit` times the smaller radius.
+/// \return internal indices of the two particles, or {-1, -1}
 template <class Real, int Dim, class Table>
 [[gnu::noinline]] std::array<std::int32_t, 2> find_deep_overlap(particle_store<Real, Dim> const& store,
                                                                 Table const& contacts, std::size_t pack, Real limit) {
@@ -171,7 +174,7 @@ template <class Real, int Dim, class Table>
     return found;
 }
 
-/// Of the contacts of one pack, the largest overlap as a share of the smaller radius; laws that stiffen.
+/// Largest overlap in one pack of contacts as a share of the smaller radius, 1. Only for laws that stiffen.
 template <class Real, int Dim, class Table>
 [[gnu::noinline]] Real deepest_of_pack(particle_store<Real, Dim> const& store, Table const& contacts, std::size_t pack) {
     Real deepest = 0;

@@ -13,51 +13,51 @@
 namespace lacuna {
 
 LACUNA_BEGIN_PACKS
-/// The forces of all pairs: where they are kept, and how they are summed on the particles.
+/// The forces of all pairs: their storage, and their sums on the particles.
 template <class Real, int Dim>
 class force_buffer {
 public:
     static constexpr int chunk_particles = force_gather<Real, Dim>::chunk_particles;
     static constexpr int width = native_width<Real>;
 
-    /// Says how long forces are kept. Takes effect with the next build().
-    /// \param transient nobody reads the force of a single pair: forces are kept no longer than it takes to sum them up,
-    ///        chunk by chunk as they are evaluated, but for those that wait, see chunk_spans
-    /// \param threads how many spans to make of the chunks, where there are enough of them; if not, it is one, and
-    ///        forces are kept
-    /// \return whether that is new
+    /// Sets how long single pair forces are stored. Takes effect with the next build().
+    /// \param transient true: the model reads no single pair force. A force is then stored only until the sums that
+    ///        need it are done, chunk by chunk; chunks that wait are an exception, see chunk_spans
+    /// \param threads number of spans into which the chunks are cut. With too few chunks there is one span, and all
+    ///        forces are stored
+    /// \return whether a setting has changed
     bool set_force_retention(bool transient, int threads) noexcept {
-        bool const fresh = transient != transient_ || threads != threads_;
+        bool const changed = transient != transient_ || threads != threads_;
         transient_ = transient;
         threads_ = threads;
-        if (fresh) forces_.column = {}; // what it needs can be much less
-        return fresh;
+        if (changed) forces_.column = {}; // the new mode may need much less memory
+        return changed;
     }
-    /// From now on the normal force of every pair is kept in a column of its own, in any mode.
+    /// From now on stores the normal force of every pair in a separate column, in any mode.
     template <class Bonds, class Contacts>
     void keep_normals(Bonds const& bonds, Contacts const& contacts) {
-        normals_kept_ = true;
+        stores_normals_ = true;
         build_normals(bonds, contacts);
     }
 
-    /// To be called when tables have changed.
+    /// Adapts the storage to the tables. Call it when the tables have changed.
     template <class Bonds, class Contacts>
     void build(std::size_t particles, Bonds const& bonds, Contacts const& contacts) {
         int const chunks = int((particles + chunk_particles - 1) / chunk_particles);
         spans_.build(chunks, threads_, particles, bonds, contacts);
-        again_ = transient_ && spans_.count() == threads_;
-        places_[0].build(bonds, particles, spans_, again_);
-        places_[1].build(contacts, particles, spans_, again_);
-        rows_.build(particles, places_, bonds, contacts);
-        ahead_.build(particles, chunks, bonds, contacts);
-        std::size_t const places = (places_[0].count() + places_[1].count()) * width;
-        forces_.column.resize((places + 1) * pair_forces<Real, Dim>::records_per_pair);
-        auto* zero = forces_.of(places);
+        reuses_memory_ = transient_ && spans_.count() == threads_;
+        offsets_[0].build(bonds, particles, spans_, reuses_memory_);
+        offsets_[1].build(contacts, particles, spans_, reuses_memory_);
+        rows_.build(particles, offsets_, bonds, contacts);
+        prefetcher_.build(particles, chunks, bonds, contacts);
+        std::size_t const slots = (offsets_[0].count() + offsets_[1].count()) * width;
+        forces_.column.resize((slots + 1) * pair_forces<Real, Dim>::records_per_pair);
+        auto* zero = forces_.of(slots);
         std::fill(zero, zero + 4 * pair_forces<Real, Dim>::records_per_pair, Real(0));
-        if (normals_kept_) build_normals(bonds, contacts);
+        if (stores_normals_) build_normals(bonds, contacts);
     }
 
-    /// All forces are zero until they are evaluated.
+    /// Sets all stored forces to zero; the next evaluation overwrites them.
     void forget() noexcept {
         auto& column = forces_.column;
         std::fill(column.data(), column.data() + 4 * column.size(), Real(0));
@@ -72,43 +72,43 @@ public:
     /// \name Positions of the forces of bonds and contacts
     /// \{
     template <pair_kind Kind, class Table>
-    force_offsets::row places(Table const& table, int chunk) const noexcept {
-        return places_[std::size_t(Kind)].of_chunk(table, chunk);
+    force_offsets::row offsets(Table const& table, int chunk) const noexcept {
+        return offsets_[std::size_t(Kind)].of_chunk(table, chunk);
     }
-    /// Where the places of a chunk begin.
+    /// First force record of a chunk.
     template <pair_kind Kind, class Table>
     Real* begin(Table const& table, int chunk) noexcept {
-        return forces_.of((offset<Kind>() + places<Kind>(table, chunk).begin) * width);
+        return forces_.of((first_pack<Kind>() + offsets<Kind>(table, chunk).begin) * width);
     }
-    /// The force of one pair.
+    /// Force record of the pair in a slot of a table.
     template <pair_kind Kind>
     Real* of(int chunk, std::size_t slot) noexcept {
-        return forces_.of(place_of<Kind>(chunk, slot));
+        return forces_.of(force_slot<Kind>(chunk, slot));
     }
-    /// Offset in column() of the force in a slot of a table; -1 when forces are not kept.
+    /// Offset in column() of the force of the pair in a slot of a table; -1 if single forces are discarded.
     template <pair_kind Kind>
     std::int32_t find(int chunk, std::int32_t slot) const noexcept {
         if (transient_) return -1;
-        return std::int32_t(place_of<Kind>(chunk, std::size_t(slot))) * force_gather<Real, Dim>::reals_per_pair;
+        return std::int32_t(force_slot<Kind>(chunk, std::size_t(slot))) * force_gather<Real, Dim>::reals_per_pair;
     }
     /// \}
 
-    /// Normal forces of all pairs, N, positive in tension, see keep_normals(); the first is 0.
+    /// Normal forces of all pairs, N, positive in tension; the first is 0. Requires keep_normals().
     Real const* normals() const noexcept { return normals_.data(); }
-    /// Where the normal forces of a table's slots begin; nullptr when they are not kept.
+    /// Normal forces of a table, by slot; nullptr if they are not stored.
     template <pair_kind Kind>
     Real* normals_of() noexcept {
-        return normals_kept_ ? normals_.data() + width + (Kind == pair_kind::bond ? 0 : bond_slots_) : nullptr;
+        return stores_normals_ ? normals_.data() + width + (Kind == pair_kind::bond ? 0 : bond_slots_) : nullptr;
     }
-    /// Place in normals() of a slot of a table.
+    /// Index in normals() of a slot of a table.
     template <pair_kind Kind>
     std::int32_t find_normal(std::int32_t slot) const noexcept {
         return std::int32_t(width + (Kind == pair_kind::bond ? 0 : bond_slots_)) + slot;
     }
 
-    /// Whether forces are not kept but for their sums: keep_force_sums() is due for each chunk before for_force_sums() is called.
-    bool forces_are_transient() const noexcept { return again_; }
-    /// Keeps the sums of a chunk, for which the same holds as for for_fresh_force_sums(), until the next evaluation.
+    /// True if single pair forces are discarded. Call keep_force_sums() for each chunk before for_force_sums().
+    bool forces_are_transient() const noexcept { return reuses_memory_; }
+    /// Stores the sums of a chunk until the next evaluation. The condition of for_fresh_force_sums() must hold.
     void keep_force_sums(int chunk, std::size_t particles) {
         constexpr std::size_t records = pair_forces<Real, Dim>::records_per_pair;
         std::size_t const first = std::size_t(chunk) * chunk_particles;
@@ -124,15 +124,16 @@ public:
             }
         });
     }
-    /// Makes room for keep_force_sums().
+    /// Allocates the memory of keep_force_sums().
     void prepare_force_sums(std::size_t particles) {
         std::size_t const records = pair_forces<Real, Dim>::records_per_pair * particles;
         if (sums_.size() != records) sums_.resize(records);
     }
-    /// Calls use(sum) with the sum of pair forces on the particles of a chunk, once all pairs are evaluated.
+    /// Calls use(sum) with a callable for the sums of pair forces on the particles of a chunk: sum(k) is the sum on the
+    /// k-th particle, as for force_sum. All pairs must be evaluated.
     template <class Use>
     void for_force_sums(int chunk, Use const& use) const {
-        if (!again_) return for_fresh_force_sums(chunk, use);
+        if (!reuses_memory_) return for_fresh_force_sums(chunk, use);
         constexpr std::size_t records = pair_forces<Real, Dim>::records_per_pair;
         use([this, first = std::size_t(chunk) * chunk_particles](int k) {
             std::size_t const at = records * (first + std::size_t(k));
@@ -143,9 +144,9 @@ public:
         });
     }
 
-    /// Calls use(sum) with the sum of pair forces on the particles of a chunk, once all pairs that concern them are
-    /// evaluated: those of the chunks up to and including this one, because a pair belongs to its lower-numbered
-    /// particle. The usual numbers of pairs per particle have a loop of their own, of fixed length.
+    /// As for_force_sums(), but only the pairs of these particles must be evaluated. A pair belongs to its
+    /// lower-numbered particle, so these are pairs of the chunks up to and including this one. The usual numbers of
+    /// pairs per particle have separate loops of fixed length.
     template <class Use>
     void for_fresh_force_sums(int chunk, Use const& use) const {
         switch (rows_.half_row(chunk)) {
@@ -158,19 +159,19 @@ public:
         }
     }
 
-    /// What to ask the memory for during the evaluation of a chunk.
+    /// Data to prefetch during the evaluation of a chunk.
     template <class Store, class Bonds, class Contacts>
     prefetcher::plan plan_prefetch(Store const& store, int chunk, Bonds const& bonds, Contacts const& contacts) const noexcept {
         prefetcher::plan plan;
-        if (!ahead_.pays()) return plan;
+        if (!prefetcher_.pays()) return plan;
         auto const packs_of = [&](auto const& table) {
             return chunk < table.chunks() ? table.end_pack(chunk) - table.first_pack(chunk) : 0;
         };
         std::size_t const packs = packs_of(bonds) + packs_of(contacts);
-        auto const [first, end] = ahead_.fresh(chunk + 1);
+        auto const [first, end] = prefetcher_.newly_read(chunk + 1);
         auto const own = std::size_t(chunk) * chunk_particles;
         plan.any = true;
-        // In space a chunk's fresh particles lie anywhere: the loop asks for those of each pack.
+        // In 3D the particles that a chunk reads first lie scattered: the pair loop prefetches those of each pack.
         plan.streams = {prefetcher::stream(store.bodies().data() + store.bodies().stride * first,
                                            Dim == 2 ? store.bodies().stride * (end - first) * sizeof(Real) : 0, packs),
                         prefetcher::stream(rows_.rows(chunk), rows_.bytes(chunk), packs),
@@ -185,23 +186,23 @@ private:
         resize_with_room(normals_, width + bond_slots_ + contacts.slots());
     }
     template <pair_kind Kind>
-    std::size_t offset() const noexcept {
-        return Kind == pair_kind::bond ? 0 : places_[0].count();
+    std::size_t first_pack() const noexcept {
+        return Kind == pair_kind::bond ? 0 : offsets_[0].count();
     }
     template <pair_kind Kind>
-    std::size_t place_of(int chunk, std::size_t slot) const noexcept {
-        return (offset<Kind>() + places_[std::size_t(Kind)](chunk, slot / width)) * width + slot % width;
+    std::size_t force_slot(int chunk, std::size_t slot) const noexcept {
+        return (first_pack<Kind>() + offsets_[std::size_t(Kind)](chunk, slot / width)) * width + slot % width;
     }
 
     pair_forces<Real, Dim> forces_;
     force_gather<Real, Dim> rows_;
-    prefetcher ahead_;
+    prefetcher prefetcher_;
     chunk_spans spans_;
-    std::array<force_offsets, 2> places_;
-    record_column<Real> sums_;      // of the particles, while forces are not kept
-    aligned_vector<Real> normals_;  // a pack of zeros, then by slot of the bonds, of the contacts
+    std::array<force_offsets, 2> offsets_;
+    record_column<Real> sums_;      // force sums of the particles, while single forces are discarded
+    aligned_vector<Real> normals_;  // a pack of zeros, then the slots of the bonds, then those of the contacts
     std::size_t bond_slots_ = 0;
-    bool transient_ = false, again_ = false, normals_kept_ = false;
+    bool transient_ = false, reuses_memory_ = false, stores_normals_ = false;
     int threads_ = 1;
 };
 LACUNA_END_PACKS

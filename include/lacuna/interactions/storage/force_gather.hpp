@@ -14,42 +14,44 @@
 
 namespace lacuna {
 
-/// Which pair forces act on each particle: the order of their summation.
+/// Lists the pair forces that act on each particle, in the order of their summation.
 ///
-/// Per particle a row of entries: first the forces that act on it as they stand (it is the first of the pair), then
-/// those that act on it reversed. All half rows of a chunk of particles are equally long (filled up with a zero
-/// force), so that the loop over them has no branch to guess; but where one particle has far more pairs than those around
-/// it, each half row of its chunk is as long as it has to be. The order follows the pairs alone: sums have the same
-/// bits for any number of threads.
+/// Each particle has a row of entries. Its first half lists the pairs whose first particle it is: their forces act on
+/// it as stored. Its second half lists the pairs whose second particle it is: their forces act on it reversed. All half
+/// rows of a chunk of particles have the same length, filled up with a zero force, so that the loop over them has no
+/// branch to mispredict. If one particle of a chunk has far more pairs than the others, the half rows of that chunk
+/// have individual lengths instead. The order depends on the pairs alone: sums have the same bits for any number of
+/// threads.
 template <class Real, int Dim>
 class force_gather {
 public:
     static constexpr int chunk_particles = 128;
     static constexpr std::int32_t reals_per_pair = std::int32_t(4 * pair_forces<Real, Dim>::records_per_pair);
-    /// half_row() of a chunk whose half rows have lengths of their own.
+    /// Value of half_row() for a chunk whose half rows have individual lengths.
     static constexpr std::int32_t uneven = -1;
 
-    /// \param places of the forces of each table
-    /// \param tables the pair tables whose places lie one after the other in the force column, then one zero
+    /// \param offsets offsets of the forces of each table
+    /// \param tables the pair tables; their forces follow each other in the force column, and one zero force ends it
     template <class... Tables>
-    void build(std::size_t particles, std::array<force_offsets, sizeof...(Tables)> const& places, Tables const&... tables) {
+    void build(std::size_t particles, std::array<force_offsets, sizeof...(Tables)> const& offsets,
+               Tables const&... tables) {
         std::size_t const chunks = (particles + chunk_particles - 1) / chunk_particles;
         degree_.assign(2 * chunks * chunk_particles, 0);
         auto const for_each = [&](auto const& visit) {
             std::size_t first = 0, t = 0;
             (void)std::initializer_list<int>{([&] {
-                auto const& at = places[t++];
+                auto const& at = offsets[t++];
                 for (int c = 0; c < tables.chunks(); ++c)
                     for (std::size_t p = tables.first_pack(c); p < tables.end_pack(c); ++p)
-                        for (std::size_t k = 0, place = first + at(c, p); k < tables.width; ++k)
+                        for (std::size_t k = 0, pack = first + at(c, p); k < tables.width; ++k)
                             if (std::size_t const s = p * tables.width + k; !tables.is_padding(s, particles))
-                                visit(tables.i(s), tables.j(s), std::int32_t(place * tables.width + k) * reals_per_pair);
+                                visit(tables.i(s), tables.j(s), std::int32_t(pack * tables.width + k) * reals_per_pair);
                 first += at.count();
             }(), 0)...};
             constexpr int width = std::get<0>(std::tuple(Tables::width...));
             return std::int32_t(first * width) * reals_per_pair;
         };
-        // Two counters a particle: pairs whose first it is, and pairs whose second it is.
+        // Two counters per particle: pairs whose first particle it is, and pairs whose second particle it is.
         std::int32_t const zero = for_each([&](std::int32_t i, std::int32_t j, std::int32_t) {
             ++degree_[2 * std::size_t(i)];
             ++degree_[2 * std::size_t(j) + 1];
@@ -69,20 +71,20 @@ public:
     }
 
     int chunks() const noexcept { return int(half_row_.size()); }
-    /// Entries in half a row of a particle of the chunk, or `uneven`.
+    /// Number of entries in half a row of a particle of the chunk, or `uneven`.
     int half_row(int chunk) const noexcept { return half_row_[std::size_t(chunk)]; }
     /// Row of the first particle of a chunk; the others follow. An entry is the offset of a force.
     std::int32_t const* rows(int chunk) const noexcept { return entry_.data() + begin_[std::size_t(chunk)]; }
 
-    /// Of an uneven chunk: where each half row begins, from rows() on, and the end.
+    /// For an uneven chunk: offset of each half row from rows(), and the end of the last.
     std::int32_t const* starts(int chunk) const noexcept { return start_.data() + uneven_[std::size_t(chunk)]; }
-    /// Length of the rows of a chunk, bytes.
+    /// Size of the rows of a chunk, bytes.
     std::size_t bytes(int chunk) const noexcept {
         return (begin_[std::size_t(chunk) + 1] - begin_[std::size_t(chunk)]) * sizeof(std::int32_t);
     }
 
 private:
-    /// Decides by degree_ how long the rows of the chunks are.
+    /// Chooses the lengths of all rows from degree_.
     void lay_out(std::size_t chunks) {
         constexpr std::size_t halves = 2 * chunk_particles;
         half_row_.resize(chunks);
@@ -110,8 +112,8 @@ private:
     std::vector<std::size_t> begin_, uneven_;
 };
 
-/// Sum of the pair forces on the particles of one chunk.
-/// \tparam Half entries in half a row where it is known at compile time, else 0; or force_gather::uneven
+/// Sums of the pair forces on the particles of one chunk.
+/// \tparam Half number of entries in half a row if known at compile time, else 0; or force_gather::uneven
 template <class Real, int Dim, int Half = 0>
 class force_sum {
 public:
@@ -120,17 +122,17 @@ public:
         : forces_(forces), row_(rows.rows(chunk)), starts_(Half < 0 ? rows.starts(chunk) : nullptr),
           half_(Half > 0 ? Half : rows.half_row(chunk)) {}
 
-    /// 2D: {F_x, F_y, torque over radius, not used} on particle number `k` of the chunk.
+    /// 2D: {F_x, F_y, torque over radius, not used} on particle number `k` of the chunk, N.
     rec operator()(int k) const noexcept
         requires(Dim == 2)
     {
         auto as_it_stands = [this](std::int32_t offset) { return rec::load(forces_ + offset); };
-        // Forces are opposite on the two sides of a pair, torques per radius are equal.
+        // Forces on the two particles of a pair are opposite, torques per radius are equal.
         rec reversed(Real(-1));
         reversed.v[2] = 1;
         return add_half(2 * k, as_it_stands) + add_half(2 * k + 1, as_it_stands) * reversed;
     }
-    /// 3D: force, and torque over radius, on particle number `k` of the chunk.
+    /// 3D: force, and torque over radius, on particle number `k` of the chunk, N.
     std::array<rec, 2> operator()(int k) const noexcept
         requires(Dim == 3)
     {

@@ -10,15 +10,15 @@
 
 namespace lacuna {
 
-/// Chunks of particles, cut into runs that threads go through at the same time: each evaluates the pairs of its
-/// chunks in their order and moves the particles of a chunk at once, while they are in the cache.
+/// Cuts the chunks of particles into spans, one per thread. Each thread evaluates the pairs of its chunks in their
+/// order. It moves the particles of a chunk right after that, while they are in the cache.
 ///
-/// A chunk with partners in another span waits: it moves when all pairs are evaluated. Those are the first chunks of a
-/// span, and single ones that a long bond concerns.
+/// A chunk with partners in another span waits: its particles move once all pairs are evaluated. This concerns the
+/// first chunks of a span, and single chunks with a long bond.
 class chunk_spans {
 public:
-    /// To be called when tables have changed.
-    /// \param tables the pair tables, which threads > 1 ask for
+    /// Cuts the chunks anew. Call it when the tables have changed.
+    /// \param tables the pair tables; read only for threads > 1
     template <class... Tables>
     void build(int chunks, int threads, std::size_t particles, Tables const&... tables) {
         chunks_ = chunks;
@@ -29,7 +29,7 @@ public:
         std::ptrdiff_t most = 0;
         for (int s = 0; s < count_; ++s)
             most = std::max(most, std::count(waits_.begin() + begin(s), waits_.begin() + end(s), char(1)));
-        // Less than this, and a thread would do little but wait.
+        // With fewer chunks the threads would spend most of the time waiting.
         if (chunks >= 4 * (most + 1) * threads) return;
         count_ = 1;
         waits_.clear();
@@ -37,7 +37,7 @@ public:
     int count() const noexcept { return count_; }
     int begin(int span) const noexcept { return int((long long)(chunks_) * span / count_); }
     int end(int span) const noexcept { return begin(span + 1); }
-    /// Whether the particles of a chunk are not to be moved before all pairs are evaluated.
+    /// Whether the particles of a chunk must not move before all pairs are evaluated.
     bool waits(int chunk) const noexcept { return !waits_.empty() && waits_[std::size_t(chunk)]; }
 
 private:
@@ -52,22 +52,24 @@ private:
                 }
     }
 
-    std::vector<char> waits_; // of each chunk, where there are several spans
+    std::vector<char> waits_; // by chunk; empty if there is one span
     int chunks_ = 0, count_ = 1;
 };
 
-/// Where the forces of a pair table's packs are kept. Either each pack has a place of its own; or, when particles move
-/// as soon as their chunk is evaluated, a force is only kept until the last chunk that needs it, and its place is used
-/// again, which spares the memory the writing and fetching of forces that nobody reads. Chunks whose forces are needed
-/// much longer than others', because of a long bond or because a partner waits, have places of their own all the same.
+/// Memory offsets of the forces of a pair table, by pack. There are two modes.
+///
+/// Either each pack has memory of its own. Or particles move as soon as their chunk is evaluated: then a force is
+/// stored only until the last chunk that needs it, and its memory is reused. This saves the memory traffic of forces
+/// that are not read again. A chunk whose forces are needed much longer, because of a long bond or because a partner
+/// waits, has memory of its own in both modes.
 class force_offsets {
 public:
-    /// \param transient whether places are used again
+    /// \param transient whether memory is reused
     template <class Table>
     void build(Table const& table, std::size_t particles, chunk_spans const& spans, bool transient) {
         at_.resize(std::size_t(table.chunks()));
-        uses_.assign(at_.size(), 0);
-        // Packs in use are counted on from chunk to chunk: those to spare between them need no place.
+        lifetimes_.assign(at_.size(), 0);
+        // Packs in use are counted from chunk to chunk: the spare packs between them need no memory.
         std::size_t in_use = 0;
         for (int c = 0; c < table.chunks(); ++c) {
             at_[std::size_t(c)].origin = table.first_pack(c) - in_use;
@@ -75,7 +77,7 @@ public:
         }
         std::size_t window = 0;
         if (transient) {
-            find_uses(table, particles, spans);
+            find_lifetimes(table, particles, spans);
             window = best_window(table, spans.count());
         }
         count_ = 0;
@@ -84,9 +86,9 @@ public:
             count_ += window;
             for (int c = spans.begin(s), end = std::min(spans.end(s), table.chunks()); c < end; ++c) {
                 auto& at = at_[std::size_t(c)];
-                if (transient && uses_[std::size_t(c)] <= window) {
+                if (transient && lifetimes_[std::size_t(c)] <= window) {
                     at.begin = ring;
-                    at.kept = window;
+                    at.window = window;
                 } else {
                     at = {count_, table.first_pack(c), std::numeric_limits<std::size_t>::max()};
                     count_ += packs_of(table, c);
@@ -96,26 +98,28 @@ public:
         count_ = std::max<std::size_t>(count_, 1);
     }
 
-    /// Places of the table, in packs.
+    /// Memory that the forces of the table need, in packs.
     std::size_t count() const noexcept { return count_; }
-    /// Where the places of a chunk begin, how many there are before the first is used again, and which of them the
-    /// chunk's first pack has.
+    /// Offsets of one chunk, in packs.
     struct row {
-        std::size_t begin, kept, first;
+        std::size_t begin;  ///< where the memory of the chunk begins
+        std::size_t window; ///< number of packs after which the memory is reused from `begin` on
+        std::size_t first;  ///< offset of the chunk's first pack from `begin`
     };
     template <class Table>
     row of_chunk(Table const& table, int chunk) const noexcept {
         auto const& at = at_[std::size_t(chunk)];
-        return {at.begin, at.kept, (table.first_pack(chunk) - at.origin) % at.kept};
+        return {at.begin, at.window, (table.first_pack(chunk) - at.origin) % at.window};
     }
+    /// Offset of a pack of a chunk, in packs.
     std::size_t operator()(int chunk, std::size_t pack) const noexcept {
         auto const& at = at_[std::size_t(chunk)];
-        return at.begin + (pack - at.origin) % at.kept;
+        return at.begin + (pack - at.origin) % at.window;
     }
 
 private:
-    struct chunk_place {
-        std::size_t begin, origin, kept;
+    struct chunk_offsets {
+        std::size_t begin, origin, window;
     };
     static constexpr std::size_t to_the_end = std::numeric_limits<std::size_t>::max();
 
@@ -128,9 +132,10 @@ private:
     std::size_t end_of(Table const& table, int chunk) const noexcept {
         return table.end_pack(chunk) - at_[std::size_t(chunk)].origin;
     }
-    /// Of each chunk the packs from one whose force is still needed to the end of the chunk that needs it, at most.
+    /// Finds the lifetime of each chunk's forces: the largest number of packs from a force of the chunk to the end of
+    /// the last chunk that needs it.
     template <class Table>
-    void find_uses(Table const& table, std::size_t particles, chunk_spans const& spans) noexcept {
+    void find_lifetimes(Table const& table, std::size_t particles, chunk_spans const& spans) noexcept {
         for (int c = 0; c < table.chunks(); ++c) {
             std::size_t const first = table.first_pack(c), end = table.end_pack(c);
             std::size_t most = std::max<std::size_t>(end - first, 1);
@@ -142,30 +147,30 @@ private:
                            ? to_the_end
                            : std::max(most, end_of(table, second) - (s / table.width - at_[std::size_t(c)].origin));
             }
-            uses_[std::size_t(c)] = most;
+            lifetimes_[std::size_t(c)] = most;
         }
     }
-    /// How many places to use again in each span, so that places are fewest.
+    /// Number of packs to reuse in each span that makes the memory smallest.
     template <class Table>
     std::size_t best_window(Table const& table, int spans) {
-        order_.resize(uses_.size());
+        order_.resize(lifetimes_.size());
         for (std::size_t c = 0; c < order_.size(); ++c) order_[c] = int(c);
         std::sort(order_.begin(), order_.end(),
-                  [&](int a, int b) { return uses_[std::size_t(a)] > uses_[std::size_t(b)]; });
+                  [&](int a, int b) { return lifetimes_[std::size_t(a)] > lifetimes_[std::size_t(b)]; });
         std::size_t own = 0, window = 0, fewest = to_the_end;
         for (int const c : order_) {
-            std::size_t const use = uses_[std::size_t(c)];
-            if (use != to_the_end && own + use * std::size_t(spans) < fewest) {
-                fewest = own + use * std::size_t(spans);
-                window = use;
+            std::size_t const lifetime = lifetimes_[std::size_t(c)];
+            if (lifetime != to_the_end && own + lifetime * std::size_t(spans) < fewest) {
+                fewest = own + lifetime * std::size_t(spans);
+                window = lifetime;
             }
             own += packs_of(table, c);
         }
         return own < fewest ? 0 : window;
     }
 
-    std::vector<chunk_place> at_;
-    std::vector<std::size_t> uses_;
+    std::vector<chunk_offsets> at_;
+    std::vector<std::size_t> lifetimes_;
     std::vector<int> order_;
     std::size_t count_ = 1;
 };

@@ -7,11 +7,11 @@
 
 namespace lacuna {
 
-/// The two kinds of pairs that a table holds.
+/// The two kinds of pairs; a table holds pairs of one kind.
 enum class pair_kind { bond, contact };
 
-/// Forces of pairs, one record (2D: F_x, F_y, torque per radius, normal force) or two (3D: force and normal force;
-/// torque per radius and 0) each.
+/// Forces of pairs on their first particles, N. In 2D one record per pair: F_x, F_y, torque per radius, normal force.
+/// In 3D two records per pair: force and normal force; torque per radius and 0.
 template <class Real, int Dim>
 struct pair_forces {
     static constexpr std::size_t records_per_pair = Dim == 2 ? 1 : 2;

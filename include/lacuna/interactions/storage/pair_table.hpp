@@ -16,11 +16,11 @@
 namespace lacuna {
 
 LACUNA_BEGIN_PACKS
-/// The pairs to which one law applies, with what the law remembers, in the order in which the step visits them.
+/// The pairs to which one law applies, with the law's histories, in the order in which the step visits them.
 ///
-/// Pairs are sorted by (i, j), i < j, and cut into chunks: chunk c holds the pairs whose i lies in the c-th run of
-/// `chunk_particles` particles. A chunk has a range of packs of its own: first those in use, the last of which is filled
-/// up with pairs of the store's two padding particles, then packs to spare, all of them such pairs.
+/// Pairs are sorted by (i, j), i < j, and cut into chunks: chunk c holds the pairs whose i lies in the c-th block of
+/// `chunk_particles` particles. Each chunk has a range of packs: first the packs in use, then spare packs. The rest of
+/// the last pack in use is filled up with padding pairs of the store's two padding particles.
 template <class Law, class Real, int Dim>
 class pair_table {
 public:
@@ -32,7 +32,7 @@ public:
     using history = history_of<Real>;
     static_assert(detail::consists_of<history_of<lanes>, lanes>(), "a law's history must consist of T and vec<T, N>");
 
-    /// Whether pairs have numbers.
+    /// Whether pairs have labels: only bonds do.
     static constexpr bool labelled = bond_law<Law, Dim>;
 
     struct entry {
@@ -42,7 +42,7 @@ public:
         history state;
     };
 
-    /// Replaces all pairs; nothing to spare.
+    /// Replaces all pairs. There are no spare packs afterwards.
     /// \param entries sorted by (i, j)
     /// \param store particle_store of the particles, with the padding particles
     template <class Store>
@@ -55,64 +55,64 @@ public:
             });
     }
 
-    /// Makes the pairs of a chunk those of `wanted`, in place. Pairs that are there already keep what the law remembers.
-    /// Chunks are independent of each other.
-    /// \param wanted has forward(visit) and backward(visit), which call visit(pair) for each pair as sorted by (i, j);
-    ///        backward only until it returns false
-    /// \param make callable pair -> entry, for pairs that are not there
-    /// \return whether there is room; if not, pairs that are not wanted have gone, and none has come: make_room() is due
+    /// Makes a chunk hold exactly the pairs of `wanted`, in place. Pairs already there keep their histories. Chunks are
+    /// independent of each other.
+    /// \param wanted has forward(visit) and backward(visit), which call visit(pair) for each pair sorted by (i, j), in
+    ///        this or in reverse order; backward() stops once visit() returns false
+    /// \param make callable pair -> entry, for pairs that are not in the chunk
+    /// \return whether the pairs fit. If not, unwanted pairs are removed and no pair is added; call make_room() then
     template <class Wanted, class Store, class Make>
     bool merge(int chunk, Wanted const& wanted, Store const& store, Make const& make) {
         if (chunk >= chunks()) return false;
         std::size_t const first = first_slot(chunk), old_end = first + chunk_pairs_[std::size_t(chunk)];
-        std::size_t known = first, kept = first, end = first;
+        std::size_t known = first, retained = first, end = first;
         wanted.forward([&](auto const& pair) {
             ++end;
             while (known < old_end && before(known, pair)) ++known;
             if (known == old_end || !is(known, pair)) return;
-            if (known != kept) move(known, kept);
-            ++known, ++kept;
+            if (known != retained) move(known, retained);
+            ++known, ++retained;
         });
-        bool const fits = end <= first_slot(chunk + 1), same = kept == old_end && kept == end;
-        if (!fits) end = kept;
-        // From the back, so that none is overwritten that has yet to move. Once as many are left as there are places, these
-        // stand where they should.
-        if (std::size_t slot = end; slot != kept)
+        bool const fits = end <= first_slot(chunk + 1), same = retained == old_end && retained == end;
+        if (!fits) end = retained;
+        // From the back, so that no pair is overwritten before it has moved. Once only retained pairs are left, they
+        // are already in their slots.
+        if (std::size_t slot = end; slot != retained)
             wanted.backward([&](auto const& pair) {
                 --slot;
-                if (kept > first && is(kept - 1, pair))
-                    move(--kept, slot);
+                if (retained > first && is(retained - 1, pair))
+                    move(--retained, slot);
                 else
                     put(slot, make(pair));
-                return slot != kept;
+                return slot != retained;
             });
         chunk_pairs_[std::size_t(chunk)] = end - first;
         fill_up(chunk, std::max(packs_for(old_end - first), packs_for(end - first)), store);
-        if (!same) look_for_rows(chunk);
+        if (!same) find_uniform_parameters(chunk);
         return fits;
     }
-    /// Lays the table out anew, its pairs as they are, with packs to spare in every chunk.
+    /// Lays the table out anew with the same pairs and with spare packs in every chunk.
     /// \param store particle_store of the particles, with the padding particles
-    /// \param count callable chunk -> number of pairs for which there is to be room, not less than it has
+    /// \param count callable chunk -> number of pairs that must fit, not less than the chunk's present number
     template <class Store, class Count>
     void make_room(Store const& store, Count const& count) {
-        pair_table roomy;
-        roomy.lay_out(chunks_of(store.size()), [&](int c) {
+        pair_table larger;
+        larger.lay_out(chunks_of(store.size()), [&](int c) {
             std::size_t const packs = packs_for(count(c));
             return packs + packs / 16 + 1;
         });
-        for (int c = 0; c < roomy.chunks(); ++c)
-            roomy.fill(c, store, [&](auto const& push) {
+        for (int c = 0; c < larger.chunks(); ++c)
+            larger.fill(c, store, [&](auto const& push) {
                 if (c >= chunks()) return;
                 for (std::size_t k = 0; k < chunk_pairs_[std::size_t(c)]; ++k) push(get(first_slot(c) + k));
             });
-        *this = std::move(roomy);
+        *this = std::move(larger);
     }
 
-    /// Leaves out the pairs for which keep(slot) is false, and all packs to spare.
+    /// Removes the pairs for which keep(slot) is false, and all spare packs.
     template <class Store, class Keep>
     void filter(Store const& store, Keep const& keep) {
-        // Towards the front, within the table itself: a pair never moves beyond where it was.
+        // In place: a pair only moves towards the front, so it overwrites no pair that is still to move.
         std::size_t packs = 0;
         for (int c = 0; c < chunks(); ++c) {
             std::size_t const old_first = first_slot(c), old_end = old_first + chunk_pairs_[std::size_t(c)];
@@ -123,14 +123,14 @@ public:
             chunk_pairs_[std::size_t(c)] = slot - packs * width;
             packs = end_pack(c);
             fill_up(c, packs - first_pack(c), store);
-            look_for_rows(c);
+            find_uniform_parameters(c);
         }
         chunk_begin_.back() = packs;
         resize();
     }
 
     static int chunks_of(std::size_t particles) noexcept { return int((particles + chunk_particles - 1) / chunk_particles); }
-    /// The first of the pairs, sorted by (i, j), that belong to a chunk or a later one.
+    /// Iterator to the first of the pairs, sorted by (i, j), that belongs to the chunk or to a later one.
     template <class Pairs>
     static auto first_of_chunk(Pairs const& pairs, int chunk) noexcept {
         auto const begin = std::int64_t(chunk) * chunk_particles;
@@ -153,19 +153,20 @@ public:
         return first_pack(chunk) + packs_for(chunk_pairs_[std::size_t(chunk)]);
     }
 
-    /// First slot of a chunk; of one beyond the last, slots().
+    /// First slot of a chunk; slots() for a chunk beyond the last.
     std::size_t first_slot(int chunk) const noexcept { return chunk_begin_[std::size_t(std::min(chunk, chunks()))] * width; }
-    /// Whether a slot holds the given pair, or one before it.
+    /// Whether a slot holds the given pair.
     template <class Pair>
     bool is(std::size_t slot, Pair const& pair) const noexcept {
         return i(slot) == pair.i && j(slot) == pair.j;
     }
+    /// Whether a slot holds a pair that comes before the given pair.
     template <class Pair>
     bool before(std::size_t slot, Pair const& pair) const noexcept {
         return i(slot) < pair.i || (i(slot) == pair.i && j(slot) < pair.j);
     }
 
-    /// Asks the memory for a pack; one beyond the end does no harm.
+    /// Prefetches a pack; a pack beyond the end does no harm.
     void prefetch(std::size_t p) const noexcept {
         state_.prefetch(p);
         __builtin_prefetch(i_.data() + width * p);
@@ -174,7 +175,7 @@ public:
 
     std::int32_t i(std::size_t slot) const noexcept { return std::int32_t(i_[slot] / stride); }
     std::int32_t j(std::size_t slot) const noexcept { return std::int32_t(j_[slot] / stride); }
-    /// Where the particles begin in a body_column, in reals.
+    /// Offsets of the pairs' particles in a body_column, in reals.
     std::uint32_t const* i_records() const noexcept { return i_.data(); }
     std::uint32_t const* j_records() const noexcept { return j_.data(); }
     std::int32_t const* parameter() const noexcept { return parameter_.data(); }
@@ -184,7 +185,7 @@ public:
         return label_[slot];
     }
     bool is_padding(std::size_t slot, std::size_t particles) const noexcept { return std::size_t(i_[slot]) >= stride * particles; }
-    /// The parameter row that all pairs of a pack share, or -1.
+    /// Parameter row that all pairs of a pack share, or -1.
     std::int32_t uniform_parameter(std::size_t p) const noexcept { return uniform_[p]; }
     field_packs<history_of, Real, width>& states() noexcept { return state_; }
     field_packs<history_of, Real, width> const& states() const noexcept { return state_; }
@@ -213,8 +214,8 @@ public:
 
 private:
     static std::size_t packs_for(std::size_t pairs) noexcept { return (pairs + width - 1) / width; }
-    /// Makes the ranges of the chunks, all empty.
-    /// \param packs callable chunk -> length of its range
+    /// Lays out the ranges of the chunks, all empty.
+    /// \param packs callable chunk -> length of its range in packs
     template <class Packs>
     void lay_out(int chunks, Packs const& packs) {
         chunk_pairs_.assign(std::size_t(chunks), 0);
@@ -231,14 +232,14 @@ private:
         state_.resize(packs);
     }
     /// Writes the pairs of an empty chunk.
-    /// \param write callable that calls push(entry) for each, sorted by (i, j)
+    /// \param write callable that calls push(entry) for each pair, sorted by (i, j)
     template <class Store, class Write>
     void fill(int chunk, Store const& store, Write const& write) {
         std::size_t const first = first_slot(chunk);
         auto& pairs = chunk_pairs_[std::size_t(chunk)];
         write([&](entry const& e) { put(first + pairs++, e); });
         fill_up(chunk, first_pack(chunk + 1) - first_pack(chunk), store);
-        look_for_rows(chunk);
+        find_uniform_parameters(chunk);
     }
     void put(std::size_t slot, entry const& e) noexcept {
         i_[slot] = stride * std::uint32_t(e.i);
@@ -254,19 +255,19 @@ private:
         if constexpr (labelled) label_[to] = label_[from];
         state_.set(to, state_.get(from));
     }
-    /// Makes pairs of padding_pair of what is behind a chunk's pairs, in the first packs of its range.
+    /// Fills the slots after a chunk's pairs with padding pairs, within the first `packs` packs of its range.
     template <class Store>
     void fill_up(int chunk, std::size_t packs, Store const& store) noexcept {
         Real const apart = store.padding_distance();
         std::size_t const first = first_slot(chunk);
         std::size_t slot = first + chunk_pairs_[std::size_t(chunk)];
-        // In their pack's row, so that it has one.
+        // Padding takes the row of the last pair, so that the pack can have a uniform row.
         entry const padding_pair{store.padding_particle(0), store.padding_particle(1), slot > first ? parameter_[slot - 1] : 0, -1,
                            Law::template initial<Real, Dim>(apart, apart / 2)};
         for (; slot < first + packs * width; ++slot) put(slot, padding_pair);
     }
-    /// Looks which rows the packs of a chunk have.
-    void look_for_rows(int chunk) noexcept {
+    /// Finds the parameter row that all pairs of a pack share, for each pack of a chunk.
+    void find_uniform_parameters(int chunk) noexcept {
         for (std::size_t p = first_pack(chunk); p < end_pack(chunk); ++p) {
             auto const row = parameter_.begin() + std::ptrdiff_t(p * width);
             uniform_[p] = std::all_of(row, row + width, [&](std::int32_t r) { return r == *row; }) ? *row : -1;
@@ -276,7 +277,7 @@ private:
     static constexpr std::uint32_t stride = body_column<Real>::stride;
     std::vector<std::uint32_t> i_, j_;
     std::vector<std::int32_t> parameter_, label_, uniform_;
-    std::vector<std::size_t> chunk_begin_{0}, chunk_pairs_; // first pack of each, and the end; number of pairs of each
+    std::vector<std::size_t> chunk_begin_{0}, chunk_pairs_; // by chunk: first pack (and the end), number of pairs
     field_packs<history_of, Real, width> state_;
 };
 LACUNA_END_PACKS

@@ -10,13 +10,13 @@
 
 namespace lacuna {
 
-/// What the loop over the pairs of a chunk asks the memory for, line by line while it computes: the bodies that the next
-/// chunk is the first to read, and what will be read when its own particles move. Bodies that do not fit into the cache
-/// would come one by one otherwise, each waited for: no processor foresees where a pair's second particle is. It changes
-/// no result.
+/// Prefetches memory, line by line, while the pair loop evaluates a chunk: the particles that the next chunk is the
+/// first to read, and the data that the motion of the chunk's particles will read. The processor cannot predict where a
+/// pair's second particle lies. Without prefetching it would wait for each particle outside the cache. Results do not
+/// change.
 class prefetcher {
 public:
-    /// Lines that are asked for in equal shares, pack by pack.
+    /// Range of memory that is prefetched in equal shares, pack by pack.
     struct stream {
         char const* at = nullptr;
         std::size_t lines_per_pack = 0;
@@ -29,42 +29,43 @@ public:
     /// The streams of one chunk.
     struct plan {
         std::array<stream, 3> streams;
-        bool any = false; ///< whether to ask for anything
+        bool any = false; ///< whether to prefetch at all
 
-        /// To be called once a pack.
+        /// Prefetches the share of one pack. Call it once per pack.
         void prefetch() noexcept {
             for (auto& s : streams)
                 for (std::size_t l = 0; l < s.lines_per_pack; ++l, s.at += cache_line) __builtin_prefetch(s.at);
         }
     };
 
-    /// To be called when tables have changed.
+    /// Finds the particles that each chunk is the first to read. Call it when the tables have changed.
     /// \param tables the pair tables
     template <class... Tables>
     void build(std::size_t particles, int chunks, Tables const&... tables) {
         first_use_.assign(particles >= few_particles ? std::size_t(chunks) + 2 : 0, particles);
         if (first_use_.empty()) return;
         distances_.assign(std::size_t(chunks) + 1, 0);
-        look_at(particles, chunks, std::size_t(chunks), true, tables...);
-        // A few pairs may reach much further than the others, from one end of the body to the other: what they need is not
-        // worth to be asked for at once.
+        find_first_uses(particles, chunks, std::size_t(chunks), true, tables...);
+        // A few pairs may span many more chunks than the others, from one end of the packing to the other. Their
+        // particles are not worth prefetching early.
         std::size_t pairs = 0, beyond = 0, usual = std::size_t(chunks);
         for (std::size_t const count : distances_) pairs += count;
         while (usual > 0 && 64 * (beyond + distances_[usual]) <= pairs) beyond += distances_[usual--];
-        if (4 * (usual + 1) < std::size_t(chunks)) look_at(particles, chunks, 4 * (usual + 1), false, tables...);
+        if (4 * (usual + 1) < std::size_t(chunks)) find_first_uses(particles, chunks, 4 * (usual + 1), false, tables...);
     }
-    /// Whether there is so much that reading ahead pays.
+    /// Whether there are so many particles that prefetching pays.
     bool pays() const noexcept { return !first_use_.empty(); }
-    /// First and end of the particles that the pairs of a chunk are the first to read.
-    std::array<std::size_t, 2> fresh(int chunk) const noexcept {
+    /// Begin and end of the range of particles that the pairs of a chunk are the first to read.
+    std::array<std::size_t, 2> newly_read(int chunk) const noexcept {
         auto const c = std::size_t(chunk);
         return {first_use_[std::min(c, first_use_.size() - 2)], first_use_[std::min(c + 1, first_use_.size() - 1)]};
     }
 
 private:
-    /// \param limit largest distance of pairs that count, in chunks
+    /// \param limit pairs that span more chunks are ignored
+    /// \param count whether distances_ is filled
     template <class... Tables>
-    void look_at(std::size_t particles, int chunks, std::size_t limit, bool count, Tables const&... tables) {
+    void find_first_uses(std::size_t particles, int chunks, std::size_t limit, bool count, Tables const&... tables) {
         std::size_t reached = 0;
         for (int c = 0; c < chunks; ++c) {
             first_use_[std::size_t(c)] = reached;
@@ -83,8 +84,8 @@ private:
         }
     }
 
-    std::vector<std::size_t> distances_; // pairs by how many chunks they span
-    std::vector<std::size_t> first_use_; // of each chunk, the first particle that no chunk before it reads
+    std::vector<std::size_t> distances_; // number of pairs by the number of chunks that they span
+    std::vector<std::size_t> first_use_; // by chunk: first particle that no earlier chunk reads
 };
 
 } // namespace lacuna
