@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-// First, so that a compiler that refuses a model or a formula has the shortest way to say where.
+// First, so that compiler errors about a model or a formula have the shortest include path.
 #include <lacuna/core/pack.hpp>
 #include <lacuna/simulation/model_check.hpp>
 
@@ -30,11 +30,11 @@
 namespace lacuna {
 
 LACUNA_BEGIN_PACKS
-/// A simulator, composed at compile time from the parts that Model names (see default_model). A Model with a bad part is refused
-/// with one message, which names the slot.
+/// A simulator, composed at compile time from the parts that Model names (see default_model). A Model with a bad part
+/// fails to compile with one message, which names the slot.
 ///
-/// A step updates neighbours, evaluates forces at the positions at its beginning, then moves the particles: see explicit_stepper.
-/// `time()` is the time of the positions.
+/// A step updates the neighbours, evaluates the forces at the present positions, then moves the particles: see
+/// explicit_stepper. `time()` is the time of the positions.
 template <class Model>
 class simulation : public particle_access<simulation<Model>, typename Model::real, Model::dim> {
 public:
@@ -55,24 +55,28 @@ public:
     static_assert(detail::refuse_misspelt_slots<Model>());
     static_assert(detail::instantiates_formula<contact_law_type, dim> && detail::instantiates_formula<bond_law_type, dim>);
 
-    /// \throws std::invalid_argument for a bad packing or parameter; for particles that are at the same place, overlap by
-    ///         more than guards.overlap_limit, or are too far from the origin for the precision
+    /// \throws std::invalid_argument for a bad packing or parameter; for two particles at the same position; for an
+    ///         overlap above guards.overlap_limit; for a particle too far from the origin for the precision
     explicit simulation(packing<real, dim> const& packing, parameters const& p = {}) : state_(packing, p), clock_(p.start_time) {
         set_up_hash positions;
         for (auto const& x : packing.position) positions.add(x);
-        set_up_.places = positions.value();
+        set_up_.positions = positions.value();
     }
 
-    /// \name Acting on particles, by the number they have in the packing
+    /// \name Actions on particles, by their number in the packing
     /// \{
-    /// Gives a particle a velocity, m/s; the ledger books the kinetic energy as work from outside.
+    /// Gives a particle a velocity, m/s. The ledger counts the change of kinetic energy as external work.
     void set_velocity(std::size_t id, point const& v) {
         note(set_up::velocities);
         state_.motions.forget(internal(id));
         state_.apply_velocity_change(internal(id), v);
     }
-    /// Prescribes a particle's velocity, and fixes it along the axes: from the one it has it changes linearly to v
-    /// within ramp_time, from now on; 0: at once. m/s, s. The ledger books what it takes as work from outside.
+    /// Prescribes a particle's velocity and fixes it along the axes. The velocity changes linearly from its present
+    /// value to `v` within `ramp_time` from now. The ledger counts the energy that this takes as external work.
+    /// \param v m/s
+    /// \param ramp_time s; 0: at once
+    /// \param axes along which no force accelerates the particle
+    /// \throws std::invalid_argument for a velocity that is not finite, and for a negative ramp_time
     void prescribe_velocity(std::size_t id, point const& v, double ramp_time = 0,
                             fixed_axes const& axes = {true, true, true, false}) {
         for (int axis = 0; axis < dim; ++axis) require_finite("velocity of particle " + std::to_string(id), v[axis]);
@@ -83,33 +87,34 @@ public:
         auto const k = internal(id);
         state_.motions.add(k, convert<double>(state_.store.velocity(k)), v, ramp_time, time());
     }
-    /// Ends what prescribe_velocity() began: the particle keeps the velocity it has, and `axes` alone stay fixed.
+    /// Ends a motion of prescribe_velocity(). The particle keeps its present velocity; only `axes` stay fixed.
     void release(std::size_t id, fixed_axes const& axes = {}) {
         state_.motions.forget(internal(id));
         fix(id, axes);
     }
-    /// Gives a particle a spin, rad/s; the ledger books the kinetic energy as work from outside.
+    /// Gives a particle a spin, rad/s. The ledger counts the change of kinetic energy as external work.
     void set_spin(std::size_t id, vec<double, rotation_dim<dim>> const& w) {
         auto const k = internal(id);
         note(set_up::velocities);
         state_.apply_spin_change(k, w);
     }
-    /// Prescribes the motion along the given axes: there the particle keeps the velocity it has or is given.
+    /// Fixes a particle along the given axes: forces do not change its velocity there; set_velocity() still does.
     void fix(std::size_t id, fixed_axes const& axes = fixed_axes::all()) {
         state_.store.fix(internal(id), axes);
         note(set_up::fixed_axes);
         clock_.supports_changed();
     }
-    /// Attaches particles to a rigid, smooth plate, see rigid_plates: from now on they move as one along the axis. They
-    /// are not to be given velocities of their own afterwards.
+    /// Attaches particles to a rigid, smooth plate, see rigid_plates: from now on they move as one along the axis. Do
+    /// not give these particles single velocities afterwards.
     void attach_to_rigid_plate(std::span<std::size_t const> ids, int axis) {
         std::vector<std::size_t> particles;
         for (std::size_t const id : ids) particles.push_back(internal(id));
         state_.plates.add(state_.store, std::move(particles), axis);
         note(set_up::plates);
     }
-    /// Applies a force and a torque on top of gravity; replaces the ones applied before. N, N m.
-    /// \param ramp_time within which the load changes linearly from its present value, at first zero, to this, s; 0: at once
+    /// Applies a force and a torque in addition to gravity. They replace those applied before. N, N m.
+    /// \param ramp_time the load changes linearly from its present value (zero at first) to the new one in this time,
+    ///        s; 0: at once
     void apply(std::size_t id, point const& force, vec<double, rotation_dim<dim>> const& torque, double ramp_time = 0) {
         state_.loads.set(state_.store, internal(id), force, torque, ramp_time, time());
         note(set_up::loads);
@@ -126,15 +131,17 @@ public:
     }
     /// \}
 
-    /// \name Acting on walls, by their number in simulation_parameters::walls; see walls() for their positions and forces
-    /// \{
-    /// Moves a wall: from the velocity it has to v, linearly within ramp_time from now on; 0: at once. m/s, s. The ledger
-    /// books its work as that of prescribed motion.
+    /// \name Actions on walls, by their number in simulation_parameters::walls; see walls() for their positions and
+    /// forces
+    /// \{ Moves a wall. Its velocity changes linearly from its present value to `v` within `ramp_time` from now. The
+    /// ledger counts the work of the wall as work of prescribed motion.
+    /// \param v m/s
+    /// \param ramp_time s; 0: at once
     void move_wall(std::size_t w, point const& v, double ramp_time = 0) {
         state_.wall_motions.move(state_.walls, w, v, ramp_time, time());
         note(set_up::walls);
     }
-    /// Lets a servo hold the stress on a wall from now on, until move_wall().
+    /// Makes a servo hold the stress on a wall from now on, until move_wall().
     void servo_wall(std::size_t w, wall_servo<dim> const& servo) {
         state_.wall_motions.hold(w, servo);
         note(set_up::walls);
@@ -143,9 +150,9 @@ public:
 
     /// Fills the pores with fluid (models with flow; before the first step).
     /// \param make callable (points_view positions, Real const* radii) -> pore_network, in the simulation's own
-    ///        numbering of particles; see triangulate_body() and make_pore_network(). With remeshing a copy is kept,
-    ///        and called again whenever the mesh is made anew: what it refers to has to stay.
-    /// \throws std::invalid_argument for flow parameters out of range, and for two particles at the same place
+    ///        numbering of particles; see triangulate_body() and make_pore_network(). With remeshing the simulation
+    ///        stores a copy and calls it for every new mesh: objects to which it refers must stay alive.
+    /// \throws std::invalid_argument for flow parameters out of range, and for two particles at the same position
     template <class Make>
     void fill_pores(Make const& make)
         requires(has_fluid<Model>)
@@ -158,7 +165,7 @@ public:
         try {
             state_.fluid.fill(state_.store, state_.pairs, p.flow, p.remeshing, dim == 2 ? p.thickness : 1.0, make);
         } catch (std::exception const&) {
-            require_distinct(); // names them, where they are what no mesh can be made of
+            require_distinct(); // a better message if coinciding particles are the reason
             throw;
         }
         if (!flow().network().bare()) require_distinct();
@@ -170,19 +177,20 @@ public:
     /// \name Steps
     /// \{
     /// Advances by one step.
-    /// \throws unstable_run when the state is no longer meaningful; std::invalid_argument as resolve_time_step()
+    /// \throws unstable_run when the state is no longer meaningful
+    /// \throws std::invalid_argument, std::logic_error before the first step, as resolve_time_step()
     void step() {
         begin();
         take_step<false>();
     }
-    /// As step(), and keeps the energy ledger.
+    /// As step(), and updates the energy ledger.
     void step_with_energy() {
         begin();
         take_step<true>();
     }
 
-    /// Advances by `steps` steps, or until an observer's on_step asks to stop. A run that was stopped, or resumed from a
-    /// checkpoint, and goes on to the same last step counts as the same run: it has the same bits.
+    /// Advances by `steps` steps, or until an observer's on_step asks to stop. The results do not depend on
+    /// interruptions: a run that is stopped, or resumed from a checkpoint, gives the same bits as an uninterrupted one.
     /// \return the number of steps taken
     /// \throws as step()
     template <observer... Observers>
@@ -205,36 +213,41 @@ public:
         return taken;
     }
 
-    /// Sets the length of the first step now; else that step does. What is set later, before that step, still counts.
+    /// Determines the length of the first step now; otherwise the first step does it. Settings that change before the
+    /// first step still have an effect: the first step determines its length again.
     /// \return the length, s
-    /// \throws std::invalid_argument for a given time step above the stable limit, and for none given where nothing has a
-    ///         stiffness; std::logic_error for a model with fluid whose pores are not filled
+    /// \throws std::invalid_argument for a given time step above the stable limit; and if none is given and nothing has
+    ///         a stiffness
+    /// \throws std::logic_error for a model with fluid whose pores are not filled
     double resolve_time_step() {
         clock_.resolve(state_);
         return time_step();
     }
-    /// Length of the next step, unless it has to follow the critical one, s; not a number before it is resolved.
+    /// Length of the next step, s, unless that step adapts it to the critical one. NaN before resolve_time_step() or
+    /// the first step.
     double time_step() const noexcept { return clock_.time_step(); }
     double time() const noexcept { return clock_.time(); }
     long long steps() const noexcept { return clock_.step(); }
     /// \}
 
-    /// Limits of the time step in the present state, as the clock counts them: bonds, contacts of particles and walls
-    /// that touch or may before the next look, the fluid, and the model's own forces; with laws that stiffen, contacts are
-    /// taken to be as deep as they may get until then. See assumed_contacts() and step_control.
+    /// Limits of the time step in the present state. They count bonds, the fluid, the model's own forces, and all
+    /// contacts of particles and walls that touch or may touch before the limits are computed again. For laws that
+    /// stiffen, contacts count with the largest overlap that they may reach until then. See assumed_contacts() and
+    /// step_control.
     time_step_limits limits() const { return clock_.limits(state_); }
-    /// What limits() assumes of contacts.
+    /// Assumptions of limits() about contacts.
     contact_assumption assumed_contacts() const { return clock_.assumed_contacts(state_); }
-    /// How often the limits of the time step were looked for, the first time included.
+    /// Number of times that the limits of the time step were computed, the first time included.
     long long looks() const noexcept { return clock_.control().looks(); }
 
     /// Failures of the last step.
     std::span<event_type const> events() const noexcept { return state_.events; }
-    /// Kept while an observer asks for it (see observe/observer.hpp), or step_with_energy() is used.
+    /// The energy ledger. It is updated while an observer asks for it (see observe/observer.hpp) and by
+    /// step_with_energy().
     energy_ledger const& energy() const noexcept { return state_.ledger.ledger(); }
 
-    /// Force of particle b on particle a by their bond or contact in the last step, N; zero without one.
-    /// \throws std::logic_error when forces are not kept: see simulation_parameters::keep_pair_forces
+    /// Force of particle b on particle a by their bond or contact in the last step, N; zero if they have none.
+    /// \throws std::logic_error without simulation_parameters::keep_pair_forces
     point pair_force(std::size_t a, std::size_t b) const {
         if (!settings().keep_pair_forces) throw std::logic_error("simulation: pair_force() needs keep_pair_forces");
         auto const i = std::int32_t(internal(a)), j = std::int32_t(internal(b));
@@ -245,13 +258,14 @@ public:
         return force;
     }
 
-    /// Total force on a particle, and torque, at the last evaluation, N, N m: of pairs, fluid, walls, loads, gravity, the
-    /// model's own forces and the plate that it is attached to; not of damping policies that act on particles.
-    /// \throws std::logic_error when forces are not kept: see simulation_parameters::keep_pair_forces
-    point force(std::size_t id) const { return convert<double>(kept_force(id).force); }
-    vec<double, rotation_dim<dim>> torque(std::size_t id) const { return convert<double>(kept_force(id).turning) * this->radius(id); }
+    /// Total force on a particle at the last evaluation, N: from pairs, fluid, walls, loads, gravity, the model's own
+    /// forces and the plate to which it is attached. It excludes damping policies that act on particles.
+    /// \throws std::logic_error without simulation_parameters::keep_pair_forces
+    point force(std::size_t id) const { return convert<double>(stored_force(id).force); }
+    /// Total torque on a particle, N m, as force().
+    vec<double, rotation_dim<dim>> torque(std::size_t id) const { return convert<double>(stored_force(id).turning) * this->radius(id); }
 
-    /// The particles as the step sees them, in the library's own order.
+    /// The particles in the library's own order.
     store_type const& particles() const noexcept { return state_.store; }
     interactions_type const& pairs() const noexcept { return state_.pairs; }
     auto const& walls() const noexcept { return state_.walls; }
@@ -262,7 +276,7 @@ public:
     {
         return *state_.fluid.get();
     }
-    /// The same, for its set_pressure() and set_source(); steps are the simulation's.
+    /// The same, for calls of its set_pressure() and set_source(). Do not step it: the simulation does.
     auto& flow()
         requires(has_fluid<Model>)
     {
@@ -270,7 +284,7 @@ public:
     }
     bool filled() const noexcept { return state_.filled(); }
 
-    /// What it was given before its first step; see simulation/checkpoint.hpp.
+    /// Record of the calls before the first step; see simulation/checkpoint.hpp.
     set_up_record set_up_so_far() const {
         if (steps() > 0) return set_up_;
         set_up_record found = set_up_;
@@ -292,10 +306,10 @@ public:
             found.result[std::size_t(set_up::walls)] = state_.wall_motions.sum_of_motions(state_.walls, hash);
         return found;
     }
-    /// After the state of a checkpoint was read: its record is this one's from now on.
+    /// Replaces the record of calls by that of a checkpoint whose state was read.
     void take_set_up(set_up_record const& record) noexcept { set_up_ = record; }
 
-    /// Writes or reads all that steps and calls change; see simulation/checkpoint.hpp.
+    /// Writes or reads all state that steps and calls change; see simulation/checkpoint.hpp.
     template <class Archive>
     void serialize(Archive& ar) {
         ar(state_, clock_);
@@ -305,7 +319,7 @@ public:
 private:
     using particle_access<simulation, real, dim>::internal;
 
-    /// What was set since the time step was first asked for counts, up to the first step.
+    /// Up to the first step the length of the step is determined again, so that late settings have an effect.
     void begin() {
         if (steps() == 0) clock_.reset();
         resolve_time_step();
@@ -316,7 +330,7 @@ private:
         explicit_stepper<Model>(state_, clock_).template step<WithEnergy>();
     }
 
-    particle_force<real, dim> kept_force(std::size_t id) const {
+    particle_force<real, dim> stored_force(std::size_t id) const {
         if (!settings().keep_pair_forces) throw std::logic_error("simulation: force() needs keep_pair_forces");
         return total_force(state_.store, state_.pairs, state_.other_forces, internal(id));
     }
@@ -324,7 +338,7 @@ private:
     void note(set_up kind) noexcept {
         if (steps() == 0) set_up_.call(kind);
     }
-    /// Held axes and velocities, of the particles in any order.
+    /// Adds hashes of fixed axes and velocities to a record; the order of the particles does not matter.
     void sum_up_particles(set_up_record& to) const {
         if (!to.was_called(set_up::fixed_axes) && !to.was_called(set_up::velocities)) return;
         auto const& store = state_.store;
@@ -352,11 +366,11 @@ private:
 
     state_type state_;
     step_clock<Model> clock_;
-    set_up_record set_up_; ///< up to the first step
+    set_up_record set_up_; // of calls before the first step
 };
 
 /// \cond
-// What is no model: the first message is the only one, as what the program goes on to do is checked against another.
+// For a Model that is no model: it derives from a valid simulation, so that the message below is the only one.
 template <class Model>
     requires(!model<Model>)
 class simulation<Model> : public simulation<default_model<detail::with_slots<Model>::dim>> {

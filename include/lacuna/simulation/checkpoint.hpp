@@ -23,14 +23,15 @@
 #include <lacuna/simulation.hpp>
 
 /// \file
-/// Checkpoints: the complete state of a simulation and of observers in a file, and back to the same bits.
+/// Checkpoints: save the complete state of a simulation and of observers to a file, and restore it bit by bit.
 ///
-/// To resume, build the simulation as it was built before (packing, parameters, pores), then load_checkpoint(). What was
-/// given is compared: settings, particles, bonds, pores, and the calls that were made before the first step (velocities,
-/// fixed axes, loads, rigid plates, motions of walls, pressures and sources of the fluid), each kind of them by what
-/// comes of it. Kinds of calls that were not made again are the checkpoint's. What is called after load_checkpoint()
-/// holds from there on: a load given with a ramp starts at the one that acts then. A simulation that has stepped goes back,
-/// or on, to the saved state: what was called since its first step is undone with it.
+/// To resume, build the simulation as before (packing, parameters, pores), then call load_checkpoint(). It compares
+/// settings, particles, bonds and pores with those of the checkpoint. It also compares the calls before the first step:
+/// velocities, fixed axes, loads, rigid plates, motions of walls, pressures and sources of the fluid. Each kind of call
+/// is compared by its result. A kind of call that was not repeated is taken from the checkpoint.
+///
+/// Calls after load_checkpoint() take effect from there on: a load with a ramp starts at the load that acts then. A
+/// simulation that has already stepped also changes to the saved state; calls since its first step are undone.
 
 namespace lacuna {
 
@@ -48,7 +49,7 @@ std::string type_text() {
     return name;
 }
 
-/// What was given to a simulation and never changes.
+/// Input of a simulation that steps do not change.
 template <class Model>
 struct given_values {
     struct particle_list {
@@ -63,11 +64,11 @@ struct given_values {
 
     given_values() = default;
     explicit given_values(simulation<Model> const& sim) : settings(sim.settings()), set_up(sim.set_up_so_far()) {
-        // Without effect on results.
+        // These have no effect on results.
         settings.threads = 1;
         settings.keep_pair_forces = true;
         settings.guards = {};
-        // A run may go on for longer than it was meant to; the throats that are left out are part of the state.
+        // A resumed run may last longer than planned. The inactive throats, which depend on it, are part of the state.
         if constexpr (requires { settings.flow.duration; }) settings.flow.duration = 1;
         auto const& store = sim.particles();
         set_up_hash order;
@@ -86,15 +87,15 @@ struct given_values {
         ar(settings, particles, bonds, numbering, set_up);
     }
 
-    /// In what a checkpoint differs from this; empty: in nothing that steps leave as it is.
+    /// Describes the first difference between the input of a checkpoint and this one; empty if there is none.
     std::string differs(given_values const& saved) const {
-        auto const told = [](char const* what, difference const& d) {
+        auto const message = [](char const* what, difference const& d) {
             return "it was made with other " + std::string(what) + ": " + d.path + " = " + d.first + ", here " + d.second;
         };
-        if (auto const d = first_difference(saved.settings, settings, "")) return told("settings", *d);
-        if (auto const d = first_difference(saved.particles, particles, "particles")) return told("particles", *d);
-        if (auto const d = first_difference(saved.bonds, bonds, "bonds")) return told("bonds", *d);
-        if (saved.set_up.places != set_up.places) return "it was made with particles at other places";
+        if (auto const d = first_difference(saved.settings, settings, "")) return message("settings", *d);
+        if (auto const d = first_difference(saved.particles, particles, "particles")) return message("particles", *d);
+        if (auto const d = first_difference(saved.bonds, bonds, "bonds")) return message("bonds", *d);
+        if (saved.set_up.positions != set_up.positions) return "it was made with particles at other places";
         if (saved.numbering != numbering) return "it was written by a version that numbers particles in another way";
         if (saved.set_up.pores != set_up.pores) return "it was made with other pores";
         if (saved.set_up.fluid != set_up.fluid) return "its pores were filled with other pressures or sources";
@@ -106,7 +107,7 @@ struct given_values {
     }
 };
 
-/// The types of observers, to be compared.
+/// Names of the observers' types.
 template <class... Observers>
 std::vector<std::string> observer_texts() {
     return {type_text<Observers>()...};
@@ -124,7 +125,7 @@ std::string model_text() {
 
 } // namespace detail
 
-/// What save_checkpoint() writes.
+/// Content of the file of save_checkpoint().
 template <class Model, class... Observers>
 checkpoint_content checkpoint_of(simulation<Model> const& sim, Observers const&... observers) {
     state_writer given, state;
@@ -141,8 +142,9 @@ checkpoint_content checkpoint_of(simulation<Model> const& sim, Observers const&.
     return {detail::model_text<Model>(), given.bytes(), state.bytes()};
 }
 
-/// What load_checkpoint() does with what it has read.
-/// \param name of the file, for messages \throws checkpoint_error
+/// Puts a simulation and observers into the state of a checkpoint that was read; see load_checkpoint().
+/// \param name name of the file, for messages
+/// \throws checkpoint_error as load_checkpoint()
 template <class Model, class... Observers>
 void resume_from(checkpoint_content const& content, std::string const& name, simulation<Model>& sim,
                  Observers&... observers) {
@@ -164,7 +166,7 @@ void resume_from(checkpoint_content const& content, std::string const& name, sim
         refuse_file(watched.size() == sizeof...(Observers)
                         ? "it was made with other observers: " + d->first + ", here " + d->second
                         : "it was made with another number of observers, " + std::to_string(watched.size()));
-    // Read into copies: whatever is wrong with the file, nothing has changed.
+    // Reads into copies, so that an error in the file leaves everything unchanged.
     auto copy = std::make_unique<simulation<Model>>(sim);
     std::tuple<Observers...> copies(observers...);
     try {
@@ -192,25 +194,25 @@ void resume_from(checkpoint_content const& content, std::string const& name, sim
 }
 
 /// Writes the complete state between two steps: particles, bonds, contacts and their histories, pores, loads, energies.
-/// \param observers whose accumulators belong to the run: copyable, with a `serialize` member, as crack_record has;
-///        in the same order at load_checkpoint()
-/// \throws std::runtime_error when the file cannot be written; the file that was there is untouched then
+/// \param observers observers whose accumulated results are saved too. They must be copyable and have a `serialize`
+///        member, like crack_record. load_checkpoint() needs them in the same order
+/// \throws std::runtime_error if the file cannot be written; an earlier file of that name stays unchanged then
 template <class Model, class... Observers>
 void save_checkpoint(std::string const& path, simulation<Model> const& sim, Observers const&... observers) {
     write_checkpoint(path, checkpoint_of(sim, observers...));
 }
 
-/// Puts a simulation that was built as the saved one was, and observers, into the saved state: what follows has the
-/// bits that it would have had.
-/// \throws checkpoint_error, and changes nothing, for a file that cannot be read, is no checkpoint, is truncated,
-///         corrupted or of a newer version; is of another model, other settings, particles, pores or observers; or was
-///         made with other calls than have been made before the first step of `sim`. The message says in what it differs
+/// Puts a simulation and observers into a saved state. The simulation must be built like the saved one. Its further
+/// steps have the same bits as those of an uninterrupted run.
+/// \throws checkpoint_error for a file that cannot be read, is no checkpoint, is truncated, corrupted or of a newer
+///         version; that has another model, other settings, particles, pores or observers; or that was made with other
+///         calls before the first step. The message names the difference. Nothing has changed then
 template <class Model, class... Observers>
 void load_checkpoint(std::string const& path, simulation<Model>& sim, Observers&... observers) {
     resume_from(read_checkpoint(path), path, sim, observers...);
 }
 
-/// Hash of the complete state: two simulations of one model and the same settings that have the same hash go on alike.
+/// Hash of the complete state. Two simulations with the same model, settings and hash continue in the same way.
 template <class Model>
 std::uint64_t state_hash(simulation<Model> const& sim) {
     state_writer state;
@@ -218,14 +220,14 @@ std::uint64_t state_hash(simulation<Model> const& sim) {
     return checksum_of(state.bytes());
 }
 
-/// Observer that writes a checkpoint after every `interval` steps, always to the same file. To be given to run() after
-/// the observers that it keeps, so that these have seen the step.
+/// Observer that writes a checkpoint after every `interval` steps, always to the same file. Pass it to run() after the
+/// observers that it saves, so that they have processed the step.
 template <class... Observers>
 class checkpoint_every {
 public:
     static constexpr stage stages = stage::step;
 
-    /// \param observers see save_checkpoint(); they must live as long as this
+    /// \param observers see save_checkpoint(); they must outlive this object
     /// \throws std::invalid_argument for an interval below 1
     checkpoint_every(long long interval, std::string path, Observers const&... observers)
         : interval_(interval), path_(std::move(path)), observers_(observers...) {

@@ -13,16 +13,19 @@
 
 namespace lacuna {
 
-/// Overlap at which an elastic contact stops two bodies, m: for a force that grows as the power 3/2 of the overlap, which
-/// is Hertz's; for one that grows more slowly it is less.
-/// \param closing their speed, m/s \param stiffness tangent of the force at `overlap`, N/m
+/// Overlap at which an elastic contact stops two bodies, m. It holds for a force that grows with the power 3/2 of the
+/// overlap (Hertz); for a force that grows more slowly the overlap is smaller.
+/// \param effective_mass kg
+/// \param closing speed of approach, m/s
+/// \param stiffness tangent of the force at `overlap`, N/m
+/// \param overlap m
 inline double stopping_overlap(double effective_mass, double closing, double stiffness, double overlap) {
     double const energy = stiffness * overlap * overlap / 2;
     return closing > 0 && energy > 0 ? overlap * std::pow(effective_mass * closing * closing / energy, 0.4) : 0;
 }
 
-/// What contacts may become, wherever particles go: bounds of their part of the time step, found from the lightest and
-/// the heaviest particles of each material. Nothing here depends on where particles are.
+/// Bounds of the time step for contacts that may form, wherever particles go. They come from the smallest and the
+/// largest particle of each material and do not depend on the positions.
 template <class Model>
 class contact_forecast {
 public:
@@ -31,10 +34,10 @@ public:
     using damping_parameters = typename Model::damping::parameters;
     static constexpr bool grows = stiffens<law, dim>;
 
-    /// Finds them, if they are not known for such speeds and overlaps.
-    /// \param speed of the fastest particle or wall, m/s
-    /// \param overlap of contacts, at least, as a share of the smaller radius
-    /// \param margin overlaps counted with, over those that stop two particles at that speed
+    /// Computes the bounds, unless they are known for these speeds and overlaps.
+    /// \param speed speed of the fastest particle or wall, m/s
+    /// \param overlap least overlap of contacts, as a share of the smaller radius, 1
+    /// \param margin ratio of the overlap that is counted to the overlap that stops two particles at that speed, 1
     template <class Store, class Interactions, class Walls>
     void update(Store const& store, Interactions const& pairs, Walls const& walls,
                 damping_parameters const& damping, double speed, double overlap, double margin) {
@@ -50,13 +53,14 @@ public:
                 search(store, pairs, walls, damping, margin);
             }
     }
-    /// What has been found holds no more: particles were held or freed.
+    /// Discards the bounds, because particles were fixed or released.
     void forget() noexcept { known_ = false; }
-    /// Largest overlap that has been thought of, as a share of the smaller radius; without the margin.
+    /// Largest overlap that the bounds include, as a share of the smaller radius, 1; without the margin.
     double overlap() const noexcept { return std::max(overlap_, stopping_share_); }
-    /// Stable step of the two particles, or particle and wall, that meet with the highest frequency, s.
+    /// Stable step of the single contact (of two particles, or particle and wall) with the highest frequency, s.
     double first_contact() const noexcept { return frequency_bound<dim>::step_of(stiff_, viscous_); }
-    /// Stable step of a body that has `without` by what it counts now, when contacts form all over it, s.
+    /// Stable step if contacts form on every side of a particle, s.
+    /// \param without stable step without these contacts, s
     double crowded(double without) const noexcept {
         double const a = std::isfinite(without) ? 4 / (without * without) : 0;
         return frequency_bound<dim>::step_of(a + crowd_stiff_, crowd_viscous_);
@@ -67,7 +71,7 @@ public:
     }
 
 private:
-    /// A particle that stands for those of its material.
+    /// A particle that represents its material: the smallest or largest of those that move, or of those that are fixed.
     struct kind {
         std::size_t particle = 0;
         int material = 0;
@@ -80,7 +84,7 @@ private:
             if (store.mobility(k, axis) > 0) return true;
         return false;
     }
-    /// Of each material the smallest and the largest particle, among those that move and among those that are held.
+    /// Finds the smallest and the largest particle of each material, among those that move and those that are fixed.
     template <class Store>
     void find_kinds(Store const& store) {
         kinds_.clear();
@@ -99,14 +103,14 @@ private:
             if (!large) kinds_.push_back({k, own.material, own.moves, false});
         }
     }
-    /// How many of the smallest particles find room around one of a radius.
+    /// Upper bound of the number of smallest particles that fit around a particle of the given radius, m.
     double most_neighbors(double radius) const noexcept {
         double const half = std::asin(smallest_ / (radius + smallest_));
-        // In space no packing of caps on a sphere is denser than 0.83 where they are large: 12 equal spheres.
+        // In 3D no packing of large caps on a sphere is denser than 0.83, the density of 12 equal spheres.
         return dim == 2 ? std::numbers::pi / half * (1 + 1e-9) : 0.83 * 2 / (1 - std::cos(half));
     }
 
-    /// Of a contact alone: bounds of the mass-scaled stiffness, 1/s^2, and damping, 1/s.
+    /// Bounds for a single contact: mass-scaled stiffness, 1/s^2, and damping, 1/s.
     struct terms {
         double stiff = 0, viscous = 0;
         void raise(terms const& other) noexcept {
@@ -142,7 +146,7 @@ private:
         crowd_stiff_ = slowed * crowd.stiff;
         crowd_viscous_ = slowed * (crowd.viscous + drag);
     }
-    /// Of a particle that moves and another, or a wall (b = nullptr).
+    /// Bounds for the contact of a moving particle with another particle, or with a wall (b = nullptr).
     template <class Store, class Row>
     terms meet(Store const& store, damping_parameters const& damping, double margin, kind const& a, kind const* b,
                Row const& row) {

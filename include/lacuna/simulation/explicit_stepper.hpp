@@ -18,7 +18,8 @@
 namespace lacuna {
 
 LACUNA_BEGIN_PACKS
-/// One explicit step of a model's state: forces from the positions, velocities from the forces, positions from the velocities.
+/// One explicit step of a model's state: forces from the positions, velocities from the forces, positions from the
+/// velocities.
 /// \code
 /// explicit_stepper<Model>(state, clock).template step<WithEnergy>();
 /// \endcode
@@ -34,7 +35,8 @@ public:
     /// \param clock whose time step is resolved
     explicit_stepper(state_type& state, step_clock<Model>& clock) : s_(state), clock_(clock) {}
 
-    /// \tparam WithEnergy keep the energy ledger
+    /// Makes one step.
+    /// \tparam WithEnergy whether the energy ledger is updated
     /// \throws unstable_run when the state is no longer meaningful
     template <bool WithEnergy>
     void step();
@@ -61,9 +63,9 @@ private:
                s_.pairs.spans().count() == s_.settings.threads;
     }
 
-    /// Calls finish(chunk) for each chunk once its forces are known. A particle's pairs belong to it and to lower-numbered
-    /// ones: once the pairs of a chunk are evaluated nothing reads its particles again, and `finish` can use them while they
-    /// and their forces are in the cache.
+    /// Calls finish(chunk) for each chunk once its forces are known. A pair belongs to its lower-numbered particle.
+    /// Hence no later chunk reads the particles of a chunk whose pairs are evaluated, and `finish` can move them while
+    /// they and their forces are in the cache.
     template <bool WithEnergy, class Finish>
     void evaluate_spans(Finish const& finish) {
         auto const& spans = s_.pairs.spans();
@@ -115,7 +117,8 @@ private:
                            "its velocity is too high");
     }
 
-    /// Velocities that were given since the last step, and a step of another length than the last, at the integrator's times.
+    /// Shifts velocities that were given since the last step to the times of the integrator, and accounts for a step
+    /// whose length differs from the last.
     template <bool WithEnergy>
     void correct_for_velocity_changes() {
         s_.changes.swap_in_new(s_.store, [&]([[maybe_unused]] auto const& change) {
@@ -127,7 +130,8 @@ private:
         s_.guards.follow(s_.store, fastest_given_);
         s_.changes.clear();
     }
-    /// What the ledger's work and kinetic energy of this step, made with the new velocity alone, leave out of a change, J.
+    /// Work that the ledger misses for a changed velocity, because its terms of this step use the new velocity alone,
+    /// J.
     double work_of(velocity_change<real, dim> const& c) const {
         auto const whole = force_on(c.particle);
         auto const change = s_.store.velocity(c.particle) - c.velocity;
@@ -142,7 +146,7 @@ private:
         }
         return 0.5 * double(previous_) * work;
     }
-    /// Velocities that were given at the time of the positions become those of half a step before.
+    /// Shifts velocities that were given at the time of the positions back by half a step.
     void shift_to_half_step(real half_step) {
         std::vector<char> done(2 * s_.store.size(), 0); // velocities, spins
         auto const once = [&](std::size_t k, bool spin) {
@@ -153,8 +157,9 @@ private:
         for (std::size_t k = 0; clock_.step() == 0 && k < s_.store.size(); ++k)
             for (bool const spin : {false, true}) once(k, spin);
     }
-    /// From the middle of one step to that of the next, of another length, it takes half of each: velocities give back what a
-    /// kick of the whole next step has too much.
+    /// Corrects velocities for a change of the step length. From the middle of one step to the middle of the next it is
+    /// half of each length, but the integrator accelerates for the whole new step. Takes back the surplus.
+    /// \param too_long surplus time, s; negative: the acceleration is too short
     void shorten_half_kick(real too_long) {
         for (std::size_t k = 0; k < s_.store.size(); ++k) {
             auto const force = force_on(k);
@@ -229,9 +234,9 @@ private:
 
     state_type& s_;
     step_clock<Model>& clock_;
-    real previous_ = 0, dt_ = 0; ///< lengths of the step before and of this one, s
+    real previous_ = 0, dt_ = 0; // lengths of the last step and of this one, s
     bool other_forces_act_ = false, velocities_on_time_ = false;
-    std::int32_t fastest_given_ = -1; ///< fastest particle that was given a velocity since the last step, -1: none
+    std::int32_t fastest_given_ = -1; // fastest particle that was given a velocity since the last step; -1: none
 };
 // Outside the class: else each file that includes this compiles it, `extern template` or not.
 template <class Model>

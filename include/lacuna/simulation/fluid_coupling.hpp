@@ -18,8 +18,8 @@
 namespace lacuna {
 
 LACUNA_BEGIN_PACKS
-/// The fluid of a simulation and its exchange with particles and pairs; does nothing in a model without fluid and
-/// until the pores are filled.
+/// The fluid of a simulation and its coupling to particles and pairs. It does nothing in a model without fluid, and
+/// nothing before the pores are filled.
 template <class Model>
 class fluid_coupling {
 public:
@@ -27,12 +27,14 @@ public:
     using store_type = particle_store<real, Model::dim>;
     using flow_type = typename Model::flow::template solver<real, Model::dim>;
 
-    /// The flow solver, nullptr without fluid.
+    /// The flow solver; nullptr without fluid.
     flow_type const* get() const noexcept { return flow_ ? &*flow_ : nullptr; }
     flow_type* get() noexcept { return flow_ ? &*flow_ : nullptr; }
 
+    /// Makes the pores and fills them.
+    /// \param thickness of a 2D packing, m
     /// \param make callable (positions, radii) -> pore_network in the store's numbering
-    /// \throws std::invalid_argument for a network without pores, unless the flow's parameters say that they are dry()
+    /// \throws std::invalid_argument for a network without pores, unless the flow's parameters are dry()
     template <class Make, class Pairs>
     void fill(store_type const& store, Pairs const& pairs, typename Model::flow::parameters const& parameters,
               remesh_parameters const& remeshing, double thickness, Make const& make) {
@@ -47,23 +49,25 @@ public:
         if constexpr (has_fluid<Model>) {
             remesher_.start(remeshing, make, real(thickness), *flow_, store.positions(), radii, pairs);
             map_throats(pairs);
-            // So that step limits are those of the gaps that there are.
+            // Sets the apertures, so that limits of the time step use the present gaps.
             deactivate_slow_throats(store, pairs);
         }
     }
 
-    /// To be called when the pairs' normal forces have moved in memory.
+    /// Finds the normal force of each throat's pair. Call it when the normal forces have moved in memory.
     template <class Pairs>
     void map_throats(Pairs const& pairs) {
         if constexpr (has_fluid<Model>)
             if (flow_) flow_->map_throats([&](std::int32_t i, std::int32_t j) { return pairs.find_normal_force(i, j); });
     }
 
-    /// Geometry, apertures, flow, pressures; then their forces, written to `out`, a record per particle. With an
-    /// interval n the last of every n steps lets fluid flow, for the time of all n.
-    /// \param number of the step, from 0
-    /// \throws unstable_run when throats have opened so far that the step takes more flow steps than can be made;
-    ///         std::invalid_argument in step 0
+    /// Makes one step of the fluid: geometry, apertures, flow, pressures. Writes the forces of the pressures to `out`.
+    /// With an interval n fluid flows only in the last of every n steps, for the time of all n.
+    /// \param dt length of the step, s
+    /// \param number number of the step, from 0
+    /// \param out one record per particle; overwritten
+    /// \throws unstable_run if throats have opened so far that the step needs too many flow steps; in step 0
+    ///         std::invalid_argument
     template <bool WithLedger, class Pairs>
     void step(store_type const& store, Pairs const& pairs, real dt, long long number, int threads,
               record_column<real>& out) {
@@ -75,20 +79,20 @@ public:
                     flow_->template step<WithLedger>(store.bodies(), pairs.normal_forces(), flow_time, threads, &out);
                 } catch (std::invalid_argument const& why) {
                     if (number == 0) throw;
-                    // It is the run that has led there, not the input.
+                    // After step 0 the cause is the run, not the input.
                     throw unstable_run("unstable run at step " + std::to_string(number) + ": " + why.what(), number, -1);
                 }
             }
     }
 
-    /// Gives the fluid a new mesh where remesh_parameters ask for one.
-    /// \param number of the step that has been made
-    /// \return whether the mesh is another
-    /// \throws unstable_run when the particles are where no network can be made
+    /// Gives the fluid a new mesh if remesh_parameters require it.
+    /// \param number number of the step
+    /// \return whether the mesh has changed
+    /// \throws unstable_run if no network can be made from the positions of the particles
     template <class Pairs>
     bool remesh(store_type const& store, Pairs const& pairs, long long number) {
         if constexpr (has_fluid<Model>)
-            if (flow_ && make_anew(store, pairs, number)) {
+            if (flow_ && remesh_if_needed(store, pairs, number)) {
                 map_throats(pairs);
                 deactivate_slow_throats(store, pairs);
                 return true;
@@ -96,7 +100,8 @@ public:
         return false;
     }
 
-    /// New apertures; leaves out the throats that do not matter, and takes up again those that have opened.
+    /// Updates the apertures. Then deactivates throats whose flow does not matter, and reactivates those that have
+    /// opened.
     template <class Pairs>
     void deactivate_slow_throats(store_type const& store, Pairs const& pairs) {
         if constexpr (has_fluid<Model>)
@@ -105,7 +110,7 @@ public:
                 flow_->deactivate_slow_throats();
             }
     }
-    /// Writes to, or reads from, an archive what a run changes.
+    /// Writes the state that a run changes to an archive, or reads it from one.
     template <class Archive>
     void archive(Archive& ar, store_type const& store) {
         bool filled = flow_.has_value();
@@ -118,7 +123,7 @@ public:
     }
 
 private:
-    /// Calls it; a refusal that names particles by their places in the store names them by their ids.
+    /// Calls `call`. If it refuses particles by their internal indices, the new exception names their ids instead.
     template <class Call>
     static auto by_id(store_type const& store, Call const& call) {
         try {
@@ -128,11 +133,11 @@ private:
         }
     }
     template <class Pairs>
-    bool make_anew(store_type const& store, Pairs const& pairs, long long number) {
+    bool remesh_if_needed(store_type const& store, Pairs const& pairs, long long number) {
         try {
             return by_id(store, [&] { return remesher_.remesh(*flow_, store.positions(), store.radii().data(), pairs, number); });
         } catch (std::invalid_argument const& why) {
-            // It is the run that has led there, not the input.
+            // The cause is the run, not the input.
             throw unstable_run("pores made anew after step " + std::to_string(number) + ": " + why.what(), number, -1);
         }
     }

@@ -15,16 +15,19 @@
 #include <lacuna/simulation/simulation_state.hpp>
 
 /// \file
-/// The forces on particles besides those of pairs and constant loads: one struct a term, and the one list of them. A term has
-///   - `active(state)`: whether it acts at all; without active terms a step moves particles while their pair forces are in cache;
-///   - `add_forces<WithEnergy>(state, step)`: adds to state.other_forces;
-///   - `add_stiffness(state, assumed, time, stiff, viscous)`: adds to the bounds of the time step.
+/// Forces on particles other than pair forces and constant loads: one struct per term, and one list of all terms.
+/// A term has
+///   - `active(state)`: whether it acts at all. If no term is active, a step moves particles while their pair forces
+///     are in the cache;
+///   - `add_forces<WithEnergy>(state, step)`: adds its forces to state.other_forces;
+///   - `add_stiffness(state, assumed, time, stiff, viscous)`: adds its stiffness and damping to the bounds of the time
+///     step.
 
 namespace lacuna {
 
 namespace detail {
 
-/// A pore resists a change of its volume: K_f / V_p times the square of it.
+/// Adds the stiffness of the fluid: a change dV of a pore's volume takes the energy K_f dV^2 / (2 V_p).
 template <int Dim, class Store, class Flow>
 void add_fluid_stiffness(frequency_bound<Dim>& bound, Store const& store, Flow const& flow) {
     auto const& net = flow.network();
@@ -42,16 +45,16 @@ void add_fluid_stiffness(frequency_bound<Dim>& bound, Store const& store, Flow c
 
 } // namespace detail
 
-/// One step as the force terms see it.
+/// Data of one step for the force terms.
 template <class Real>
 struct force_step {
-    moment now;         ///< number of the step, and time of the positions
-    Real previous;      ///< length of the step that led to the positions, s
-    bool pairs_changed; ///< the tables of pairs are others than in the step before
-    bool remeshed = false; ///< out: the pores were made anew
+    moment now;            ///< number of the step, and time of the positions
+    Real previous;         ///< length of the step that led to the positions, s
+    bool pairs_changed;    ///< whether the tables of pairs have changed since the last step
+    bool remeshed = false; ///< output: whether the pores have a new mesh
 };
 
-/// Pressure of the fluid. First in the list: it overwrites what is there.
+/// Pressure of the fluid. First in the list: it overwrites state.other_forces.
 struct fluid_term {
     template <class State>
     static bool active(State const& s) noexcept {
@@ -66,14 +69,14 @@ struct fluid_term {
         s.fluid.template step<WithEnergy>(s.store, s.pairs, step.previous, step.now.step, s.settings.threads, s.other_forces);
         step.remeshed = s.fluid.remesh(s.store, s.pairs, step.now.step);
     }
-    /// A pore resists a change of its volume: K_f / V_p times the square of it.
     template <class State, class Bound>
     static void add_stiffness(State const& s, contact_assumption const&, double, Bound& stiff, Bound&) {
         if constexpr (has_fluid<typename State::model_type>) detail::add_fluid_stiffness(stiff, s.store, *s.fluid.get());
     }
 };
 
-/// Moments of bonds and contacts that resist bending, twisting and rolling. Their stiffness is counted with the pairs'.
+/// Moments of bonds and contacts that resist bending, twisting and rolling. Their stiffness counts with that of the
+/// pairs.
 struct pair_moment_term {
     template <class State>
     static constexpr bool active(State const&) noexcept {
@@ -134,7 +137,7 @@ struct own_force_term {
     }
 };
 
-/// Rigid plates. Last in the list: they share out all other forces.
+/// Rigid plates. Last in the list: they distribute the sum of all other forces among their particles.
 struct rigid_plate_term {
     template <class State>
     static bool active(State const& s) noexcept {
@@ -163,7 +166,7 @@ struct term_list {
     }
     template <class State, class Bound>
     static void add_stiffness(State const& s, contact_assumption const& assumed, double time, Bound& stiff, Bound& viscous) {
-        // A fold over an assignment goes from right to left.
+        // A fold over an assignment evaluates from right to left.
         int order = 0;
         ((Terms::active(s) ? Terms::add_stiffness(s, assumed, time, stiff, viscous) : void(), order) = ... = 0);
     }

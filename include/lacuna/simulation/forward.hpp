@@ -4,8 +4,8 @@
 #include <lacuna/core/pack.hpp>
 
 /// \file
-/// Declares lacuna::simulation, for headers that only name it. A declaration by hand would name another class: simulation is
-/// in the namespace that LACUNA_BEGIN_PACKS opens.
+/// Declares lacuna::simulation, for headers that only name it. Do not declare it by hand: LACUNA_BEGIN_PACKS
+/// opens an inner namespace, so that a declaration without it names a different class.
 
 namespace lacuna {
 

@@ -8,32 +8,37 @@
 
 namespace lacuna {
 
-/// Guards: what ends a run whose state means nothing any more. Each can be turned off by its name; a state that is not a
-/// number always ends a run.
+/// Guards: each ends a run whose state is no longer meaningful. Each can be switched off. A state that is not a number
+/// always ends a run.
 struct guard_parameters {
-    /// Speeds that grow fourfold in every 16 steps while the fastest particles turn round in nearly every step: a time
-    /// step above the stable one. Growth alone ends no run. Without effect under allow_unstable_step.
+    /// Speeds grow fourfold in every 16 steps, and the velocities of the fastest particles reverse in nearly every
+    /// step: the time step is above the stable limit. Growth alone ends no run. No effect with allow_unstable_step.
     bool growth = true;
-    /// More than half of the energy has come from nowhere, and more than rounding makes; where a ledger is kept. Without
-    /// effect under allow_unstable_step.
+    /// More than half of the energy has no source, and more than rounding can make. Works in steps with an energy
+    /// ledger. No effect with allow_unstable_step.
     bool energy = true;
-    /// Two particles that overlap by more than overlap_limit: contacts, and bonds that were made at less.
+    /// Two particles in contact overlap by more than overlap_limit. So do two bonded particles that overlapped less at
+    /// the start.
     bool overlap = true;
-    double overlap_limit = 1; ///< over the smaller radius, 1
-    /// Particles and walls that move by more than motion_limit in one step, particles that turn by more than ten times that.
+    double overlap_limit = 1; ///< largest overlap over the smaller radius, 1
+    /// A particle or wall moves by more than motion_limit in one step, or a particle rotates by more than ten times
+    /// that.
     bool motion = true;
-    double motion_limit = 0.1; ///< path over the radius, of walls the smallest, 1; a tenth of an angle, rad
-    /// Places too far from the origin for the precision in use, and motion that is lost to rounding.
+    /// Largest path in a step over the radius (for walls: over the smallest radius), 1. The largest rotation in a step
+    /// is ten times this number, rad.
+    double motion_limit = 0.1;
+    /// A particle is too far from the origin for the precision, or its motion is lost to rounding.
     bool resolution = true;
-    /// The centre of a particle beyond a wall.
+    /// The centre of a particle is beyond a wall.
     bool walls = true;
-    /// Pores whose corners have passed each other.
+    /// The corners of a pore have passed each other.
     bool pores = true;
 
-    /// The limits that are in force, infinite where switched off.
+    /// overlap_limit; infinite if the guard is off.
     double largest_overlap() const noexcept { return overlap ? overlap_limit : std::numeric_limits<double>::infinity(); }
+    /// motion_limit; infinite if the guard is off.
     double largest_motion() const noexcept { return motion ? motion_limit : std::numeric_limits<double>::infinity(); }
-    /// \throws std::invalid_argument naming the part, the field, the value and the rule.
+    /// \throws std::invalid_argument with the part, the field, the value and the rule
     void validate(std::string const& name) const {
         require_positive(name + ".overlap_limit", overlap_limit);
         require_positive(name + ".motion_limit", motion_limit);

@@ -18,18 +18,19 @@
 #include <lacuna/simulation/growth_watch.hpp>
 
 /// \file
-/// What is looked at after each step: whether the state still means anything. See guard_parameters.
+/// Checks after each step that the state is still meaningful. See guard_parameters.
 
 namespace lacuna {
 
-/// When a state was found to be meaningless.
+/// Step number and time of a state.
 struct moment {
     long long step;
     double time; ///< s
 };
 
-/// Throws unstable_run with step, time, particle, place, what is wrong and the likely cause.
-/// \param k internal index of the particle, -1 for none in particular
+/// Throws unstable_run. The message has step, time, particle, position, the fault and its likely cause.
+/// \param k internal index of the particle; -1: no particular one
+/// \param what the fault
 template <class Real, int Dim>
 [[noreturn]] void throw_unstable(particle_store<Real, Dim> const& store, moment const& now, std::int32_t k,
                                  std::string const& what, std::string const& cause) {
@@ -39,12 +40,13 @@ template <class Real, int Dim>
     throw unstable_run(text + what + "; likely cause: " + cause, now.step, id);
 }
 
-/// Looks at the reports of a step.
+/// Checks the motion of a step.
+/// \param reports one per chunk
 /// \param smallest_radius of all particles, m
-/// \param limit of the path of a particle in a step over its radius, 1; infinite: none
-/// \param cause callable (k) -> why a particle moves so fast, or -1: any; the text
-/// \throws unstable_run for a velocity that is no number, a particle that moved further than the limit, and one that
-///         turned by more than ten times the limit in rad
+/// \param limit largest path of a particle in a step over its radius, 1; infinite: no limit
+/// \param cause callable (k) -> text why particle k, or any particle for -1, moves so fast
+/// \throws unstable_run for a velocity that is not a number, a particle that moved further than the limit, and a
+///         particle that rotated by more than ten times the limit in rad
 template <class Real, int Dim, class Cause>
 largest_motion<Real> checked_motion(particle_store<Real, Dim> const& store, std::span<motion_report<Real> const> reports,
                                     Real time_step, Real smallest_radius, double limit, moment const& now,
@@ -95,10 +97,10 @@ std::int32_t fastest_particle(particle_store<Real, Dim> const& store) noexcept {
     return std::int32_t(fastest);
 }
 
-/// What the growth of speeds is called where a run is stopped.
+/// Text about growing speeds for the messages of unstable_run.
 inline std::string growth_text() { return "the speeds grow fourfold in every 16 steps and turn round in nearly every step"; }
 
-/// \throws unstable_run when the speeds of a run grow as growth_watch has it
+/// \throws unstable_run if growth_watch finds that energy runs away
 template <class Real, int Dim>
 void check_growth(particle_store<Real, Dim> const& store, growth_watch<Real, Dim> const& watch,
                   largest_motion<Real> const& moved, Real smallest_radius, moment const& now) {
@@ -111,7 +113,7 @@ void check_growth(particle_store<Real, Dim> const& store, growth_watch<Real, Dim
 }
 
 /// \param rounding energy that rounding may have made, J
-/// \throws unstable_run when more than half of the energy of a run has come from nowhere, and more than rounding makes
+/// \throws unstable_run if more than half of the energy of a run has no source, and more than rounding can make
 template <class Real, int Dim>
 void check_energy(particle_store<Real, Dim> const& store, energy_ledger const& ledger, double rounding, moment const& now) {
     if (double const residual = ledger.residual(); residual > 0.5 * ledger.largest() && residual > rounding)
@@ -121,9 +123,10 @@ void check_energy(particle_store<Real, Dim> const& store, energy_ledger const& l
                        "energy runs away: the time step is above the stable one, or a law makes energy");
 }
 
-/// Of the bonds that were not made near `limit` times the smaller radius of overlap, one that overlaps more by now;
-/// its slot, or -1.
-/// \param deep_at_start labels of the others, sorted
+/// Finds a bond whose particles overlap by more than `limit` times the smaller radius, but did not nearly so at the
+/// start.
+/// \param deep_at_start labels of the bonds that overlapped so far at the start, sorted
+/// \return slot of the bond, or -1
 template <class Real, int Dim, class Table>
 std::int64_t find_deep_bond(particle_store<Real, Dim> const& store, Table const& bonds, double limit,
                             std::span<std::int32_t const> deep_at_start) noexcept {
@@ -137,7 +140,8 @@ std::int64_t find_deep_bond(particle_store<Real, Dim> const& store, Table const&
     return -1;
 }
 
-/// Of bonds that give way without end in compression, one that does so now: "bond 3 between particles 5 and 7 ..."; else "".
+/// Finds a bond that yields in compression without limit: "bond 3 between particles 5 and 7 ...". Returns "" if there
+/// is none.
 template <class Law, class Real, int Dim, class Interactions>
 std::string crushed_bond([[maybe_unused]] particle_store<Real, Dim> const& store,
                          [[maybe_unused]] Interactions const& pairs) {
@@ -160,7 +164,8 @@ std::string crushed_bond([[maybe_unused]] particle_store<Real, Dim> const& store
     return "";
 }
 
-/// The same for one pair of particles that is, or has been, bonded. \param i, j internal indices
+/// Describes the bond of two particles that overlap too far; "" if they were never bonded.
+/// \param i, j internal indices
 template <class Law, class Real, int Dim, class Interactions>
 std::string bond_between(particle_store<Real, Dim> const& store, Interactions const& pairs, std::int32_t i, std::int32_t j) {
     auto const a = store.id(std::size_t(i)), b = store.id(std::size_t(j));
@@ -183,8 +188,9 @@ std::string bond_between(particle_store<Real, Dim> const& store, Interactions co
     return "";
 }
 
-/// In space a regular triangulation has flat tetrahedra, which turn over at any small strain; at their least volume they
-/// push nobody. There a pore may turn over by a tenth of pore_network::size.
+/// Checks that no pore is inverted. In 3D a regular triangulation has flat tetrahedra, which invert at any small
+/// strain. At their minimum volume they exert no forces. Hence in 3D a pore may be inverted by up to a tenth of
+/// pore_network::size.
 /// \param crushed callable () -> crushed_bond()
 /// \throws unstable_run for a pore whose corners have passed each other: it has no volume any more
 template <class Real, int Dim, class Crushed>

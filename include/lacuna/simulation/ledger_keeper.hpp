@@ -11,32 +11,32 @@
 
 namespace lacuna {
 
-/// Keeps the energy ledger of a run from what its parts report in each step.
+/// Updates the energy ledger of a run from the energies that its parts report in each step.
 template <class Real>
 class ledger_keeper {
 public:
     energy_ledger const& ledger() const noexcept { return ledger_; }
 
-    /// The next step that is kept begins a new ledger.
-    void close() noexcept { open_ = false; }
+    /// Ends the ledger: the next keep() begins a new one.
+    void close() noexcept { started_ = false; }
 
-    /// Work done at once from outside, J: velocities given to particles.
+    /// Adds external work done between two steps, J: velocities given to particles.
     void book_work(double work) noexcept {
-        if (!open_) return;
+        if (!started_) return;
         ledger_.external += work;
         ledger_.prescribed += work;
         work_ahead_ += work;
         held_ahead_ += work;
     }
 
-    /// Enters one step. Work is booked in halves: with the force before and the force after each displacement.
-    /// \param pairs of bonds, contacts and walls
-    /// \param fracture taken out by bonds that failed in this step in tension, in shear, J
-    /// \param before, dt length of the step before and of this one, s
+    /// Adds one step. Work counts in halves: with the force before and the force after each displacement.
+    /// \param pairs energies of bonds, contacts and walls
+    /// \param fracture energy taken out by bonds that failed in this step: in tension, then in shear, J
+    /// \param before, dt lengths of the last step and of this one, s
     /// \param flow nullptr without fluid
-    /// \param wall_power of moving walls, with their velocities before and after, W
+    /// \param wall_power power of moving walls, with their velocities before and after the step, W
+    /// \param own_power power of the model's own forces, with velocities before and after the step, W
     /// \param complete whether all laws state their energies
-    /// \param own_power of the model's own forces, the same, W
     template <class Flow>
     void keep(pair_energy const& pairs, std::array<double, 2> const& fracture,
               std::span<motion_report<Real> const> reports, double before, double dt, Flow const* flow,
@@ -57,11 +57,11 @@ public:
         total.held_after += wall_power[1];
         total.load_before += wall_power[0] + own_power[0];
         total.load_after += wall_power[1] + own_power[1];
-        bool const first = !open_;
+        bool const first = !started_;
         if (first) {
             ledger_ = {};
             work_ahead_ = held_ahead_ = damping_ahead_ = 0;
-            open_ = true;
+            started_ = true;
         }
         ledger_.complete = complete;
         ledger_.kinetic = total.kinetic;
@@ -85,7 +85,7 @@ public:
     }
     template <class Archive>
     void serialize(Archive& ar) {
-        ar(ledger_, fluid_start_, work_ahead_, held_ahead_, damping_ahead_, open_);
+        ar(ledger_, fluid_start_, work_ahead_, held_ahead_, damping_ahead_, started_);
     }
 
 private:
@@ -104,8 +104,9 @@ private:
 
     energy_ledger ledger_;
     flow_ledger<Real> fluid_start_;
+    // First half of the next step's work, J; work_ahead_ and held_ahead_ include the totals of the ledger.
     double work_ahead_ = 0, held_ahead_ = 0, damping_ahead_ = 0;
-    bool open_ = false;
+    bool started_ = false;
 };
 
 } // namespace lacuna

@@ -16,21 +16,21 @@ namespace lacuna {
 
 /// The time step limits of a simulation in its present state, s.
 struct time_step_limits {
-    double wave_limit = 0; ///< the paper's eq. 9: shortest distance over wave speed, from the stiffest light pair counted
-    double mean_throat_limit = 0; ///< the paper's eq. 19, for the fluid; infinite where the flow has none
-    double flow = 0;        ///< rigorous, for the fluid alone with its substeps and interval; infinite without flow
-    double rigorous = 0;    ///< rigorous, for particles with rotation, damping and the stiffness of the fluid
-    /// What a step has to stay below.
+    double wave_limit = 0;        ///< the paper's eq. 9, distance over wave speed: least sqrt(m / k) of the counted pairs
+    double mean_throat_limit = 0; ///< the paper's eq. 19, for the fluid; infinite if the flow has no such limit
+    double flow = 0;              ///< rigorous, for the fluid alone with its substeps and interval; infinite without flow
+    double rigorous = 0;          ///< rigorous, for particles with rotation, damping and the stiffness of the fluid
+    /// Stable limit of the whole model, s: a time step must not exceed it.
     double critical() const noexcept { return rigorous < flow ? rigorous : flow; }
 };
 
-/// What a step has to stay below for the fluid, s; see time_step_limits::flow.
+/// Stable limit of the fluid, s; see time_step_limits::flow.
 template <class Flow>
 double flow_limit(Flow const& flow) {
     return double(flow.critical_time_step()) / flow.settings().interval;
 }
 
-/// Where find_limits() works: kept from one call to the next, a call allocates nothing.
+/// Working memory of find_limits(). Reuse it: then further calls allocate nothing.
 template <int Dim>
 struct limit_scratch {
     frequency_bound<Dim> stiff, viscous;
@@ -38,8 +38,8 @@ struct limit_scratch {
 };
 
 namespace detail {
-/// Adds bonds and contacts to the bounds: first what acts at their points of contact, then the moments.
-/// \return the paper's eq. 9 without its factor: the shortest sqrt(m / k), s
+/// Adds bonds and contacts to the bounds: first all forces, then all moments.
+/// \return the paper's eq. 9 without its factor: the least sqrt(m / k), m the smaller mass of a pair, s
 template <class State, class Scratch>
 double add_pairs(State const& s, contact_assumption const& assumed, Scratch& scratch) {
     using damping = typename State::damping_type;
@@ -61,9 +61,9 @@ double add_pairs(State const& s, contact_assumption const& assumed, Scratch& scr
 }
 } // namespace detail
 
-/// Limits of the time step in the present state. Counted are bonds, contacts of particles and walls that touch or may under an
-/// assumption, their dashpots, other damping, the fluid, and the model's own forces.
-/// \param time of the positions, s
+/// Limits of the time step in the present state. They count bonds, contacts of particles and walls that touch or may
+/// touch under the assumption, their dashpots, other damping, the fluid, and the model's own forces.
+/// \param time time of the positions, s
 template <class Model>
 time_step_limits find_limits(simulation_state<Model> const& s, contact_assumption const& assumed, double time,
                              limit_scratch<Model::dim>& scratch) {

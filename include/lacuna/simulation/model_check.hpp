@@ -10,12 +10,12 @@
 #include <lacuna/model.hpp>
 
 /// \file
-/// What a compiler says of a model that is none: one message, which names the slot and the member.
+/// Compile-time checks of a model. A faulty model gives one message, which names the slot and the member.
 
 namespace lacuna::detail {
 
-/// A member that the tables of a law cannot keep: Member is its type, Place its name.
-template <class Member, auto Place>
+/// Refuses a member that the tables of a law cannot store: Member is its type, Name spells its name.
+template <class Member, auto Name>
 constexpr bool refuse_member() {
     static_assert(std::is_void_v<Member>, "each member of a law's parameters and history must be T or vec<T, N>: the "
                                           "tables keep nothing else");
@@ -54,7 +54,7 @@ inline constexpr bool is_plain = std::is_aggregate_v<Aggregate> && std::is_trivi
 
 struct contact_law_slot;
 struct bond_law_slot;
-/// Says what a law lacks; the template arguments name it.
+/// States which part a law lacks; the template arguments name the law.
 template <class Law, int Dim, class Slot>
 constexpr bool explain_law() {
     constexpr bool never = std::is_void_v<Law>, bond = std::is_same_v<Slot, bond_law_slot>;
@@ -99,7 +99,7 @@ constexpr bool explain_law() {
                              "const&, T normal_force, vec<T, shear_dim<Dim>> const& shear_force)");
     return true;
 }
-/// Says what a policy lacks.
+/// States which part a damping policy lacks.
 template <class Policy>
 constexpr bool explain_damping() {
     constexpr bool never = std::is_void_v<Policy>;
@@ -238,7 +238,7 @@ constexpr bool explain_slots() {
 }
 template <class M>
 concept good_slots = has_all_slots<M> && plane_or_space<M::dim> && std::floating_point<typename M::real>;
-/// The model itself, or one without faults.
+/// The model itself if its slots are good, else a default model.
 template <class M>
 using with_slots = std::conditional_t<good_slots<M>, M, default_model<2>>;
 

@@ -9,8 +9,8 @@
 
 namespace lacuna {
 
-/// Reads particles by their id, the number they have in the packing. `Simulation` derives from this class and has
-/// particles(): a particle_store<Real, Dim>.
+/// Read access to particles by id, their number in the packing. `Simulation` derives from this class and has
+/// particles(), which returns a particle_store<Real, Dim>.
 template <class Simulation, class Real, int Dim>
 class particle_access {
 public:
@@ -27,7 +27,7 @@ public:
     double mass(std::size_t id) const { return double(store().mass(internal(id))); }
     double moment_of_inertia(std::size_t id) const { return double(store().moment_of_inertia(internal(id))); }
     int material(std::size_t id) const { return store().material(internal(id)); }
-    /// Eq. 8's unit vector in 2D, a unit quaternion {w, x, y, z} in 3D.
+    /// Unit vector of the paper's eq. 8 in 2D, unit quaternion {w, x, y, z} in 3D.
     auto orientation(std::size_t id) const { return convert<double>(store().orientation(internal(id))); }
 
     /// Kinetic energy of all particles with their present velocities, J.

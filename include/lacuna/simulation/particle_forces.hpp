@@ -9,15 +9,15 @@
 
 namespace lacuna {
 
-/// What acts on one particle: force, N, and torque over radius, N.
+/// Force on one particle, N, and torque on it over its radius, N.
 template <class Real, int Dim>
 struct particle_force {
     vec<Real, Dim> force;
     vec<Real, rotation_dim<Dim>> turning;
 };
 
-/// Sum of all forces of the last evaluation on one particle; not of damping policies that act on particles.
-/// \param extra forces of fluid, walls and moments, as the integrators read them
+/// Sum of all forces of the last evaluation on one particle. It excludes damping policies that act on particles.
+/// \param extra forces of fluid, walls and moments, in the layout of the integrators
 /// \param k internal index
 template <class Real, int Dim, class Interactions>
 particle_force<Real, Dim> total_force(particle_store<Real, Dim> const& store, Interactions const& interactions,
@@ -42,7 +42,8 @@ particle_force<Real, Dim> total_force(particle_store<Real, Dim> const& store, In
     return sum;
 }
 
-/// Makes the velocity, or the spin, that a particle was given at the time of its position that of half a step before.
+/// Shifts a particle's velocity from the time of its position back by half a step.
+/// \param sum present forces on the particle
 /// \param half_a_step s
 template <class Real, int Dim>
 void set_velocity_back(particle_store<Real, Dim>& store, particle_force<Real, Dim> const& sum, std::size_t k,
@@ -51,6 +52,7 @@ void set_velocity_back(particle_store<Real, Dim>& store, particle_force<Real, Di
     for (int axis = 0; axis < Dim; ++axis) velocity[axis] -= sum.force[axis] * store.mobility(k, axis) * half_a_step;
     store.set_velocity(k, velocity);
 }
+/// Shifts a particle's spin, as set_velocity_back().
 template <class Real, int Dim>
 void set_spin_back(particle_store<Real, Dim>& store, particle_force<Real, Dim> const& sum, std::size_t k,
                    Real half_a_step) {

@@ -9,8 +9,9 @@
 
 namespace lacuna {
 
-/// Tells those who keep lists of close particles what each chunk has moved in a step, at most.
-/// \param reports of the step, one per chunk
+/// Adds the largest displacement of each chunk in a step to the paths of the lists of pairs and of wall contacts.
+/// \param reports reports of the step, one per chunk
+/// \param time_step s
 template <int Dim, class Real, class Interactions, class Walls>
 void count_paths(std::span<motion_report<Real> const> reports, Real time_step, Interactions& interactions, Walls& walls) {
     static_assert(Interactions::chunk_particles == Walls::block_particles);

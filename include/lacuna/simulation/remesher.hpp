@@ -19,15 +19,15 @@
 
 namespace lacuna {
 
-/// Makes the pores of a simulation anew where their mesh does not fit the particles any more.
+/// Makes a new mesh of the pores once the present one does not fit the particles any more.
 /// \tparam Flow the flow solver
 template <class Flow, class Real, int Dim>
 class remesher {
 public:
     using network_type = pore_network<Real, Dim>;
 
-    /// Keeps a copy of what made the first network; with remesh_rule::never it keeps nothing, and remesh() does
-    /// nothing.
+    /// Stores a copy of the callable that made the first network. With remesh_rule::never it stores nothing, and
+    /// remesh() does nothing.
     template <class Make, class Pairs>
     void start(remesh_parameters const& parameters, Make const& make, Real thickness, Flow const& flow,
                points_view<Real, Dim> points, Real const* radii, Pairs const& pairs) {
@@ -35,22 +35,23 @@ public:
         thickness_ = thickness;
         maker_.reset();
         if (parameters.rule == remesh_rule::never) return;
-        using maker = std::decay_t<Make>; // of a function, its pointer
+        using maker = std::decay_t<Make>; // a pointer if Make is a function
         maker_ = std::make_shared<maker const>(make);
-        make_ = [](void const* kept, points_view<Real, Dim> x, Real const* r) -> network_type {
-            return (*static_cast<maker const*>(kept))(x, r);
+        make_ = [](void const* stored, points_view<Real, Dim> x, Real const* r) -> network_type {
+            return (*static_cast<maker const*>(stored))(x, r);
         };
-        keep_places(points);
+        store_positions(points);
         accept(flow, points, radii, pairs);
     }
 
-    /// Whether it may give the fluid another mesh.
+    /// Whether remesh() may replace the mesh.
     bool on() const noexcept { return maker_ != nullptr; }
 
-    /// After step `number`: looks at the mesh when it is time to, and gives the flow solver another one where it has
-    /// to. The pressures' forces on the particles are not touched: they change with the next step of the flow.
-    /// \return whether the mesh is another; then throats are to be mapped to pairs anew
-    /// \throws std::invalid_argument when the particles are where no network can be made
+    /// Checks the mesh after every `interval` steps, and gives the flow solver a new one if necessary. The forces of
+    /// the pressures on the particles change with the next step of the flow, not here.
+    /// \param number number of the step
+    /// \return whether the mesh has changed; then the throats must be mapped to the pairs again
+    /// \throws std::invalid_argument if no network can be made from the positions of the particles
     template <class Pairs>
     bool remesh(Flow& flow, points_view<Real, Dim> points, Real const* radii, Pairs const& pairs, long long number) {
         if (!maker_ || (number + 1) % parameters_.interval != 0) return false;
@@ -65,39 +66,40 @@ public:
         bool const another = network.corner != old.corner;
         if (another) {
             keep_sizes(old, network);
-            auto fresh = Flow(p, std::move(network), thickness_, points, radii).network();
-            auto const report = transfer_fluid(old, fresh, points, p.bulk_modulus, p.minimum_pressure);
+            auto replacement = Flow(p, std::move(network), thickness_, points, radii).network();
+            auto const report = transfer_fluid(old, replacement, points, p.bulk_modulus, p.minimum_pressure);
             auto ledger = flow.ledger();
             ++ledger.remeshes;
-            ledger.remesh_energy += storage_energy(fresh, p.bulk_modulus) - flow.storage_energy();
+            ledger.remesh_energy += storage_energy(replacement, p.bulk_modulus) - flow.storage_energy();
             ledger.remesh_volume += Real(report.volume);
             ledger.remesh_residual = Real(report.residual);
             ledger.remesh_content = Real(report.content);
             ledger.boundary_inflow -= Real(report.lost);
-            flow.restore(std::move(fresh), ledger);
-            keep_places(points);
+            flow.restore(std::move(replacement), ledger);
+            store_positions(points);
         }
         accept(flow, points, radii, pairs);
         return another;
     }
 
-    /// Writes what the shape of the pores follows from, where the particles were when they were made, or reads it and
-    /// gives the flow solver its network of then; the fluid in it is the solver's to read.
-    /// \throws std::runtime_error when the pores come out as others; what makes the network throws
+    /// Writes the positions of the particles from which the present mesh was made; the shape of the pores follows from
+    /// them. Or reads them and gives the flow solver that network. The flow solver itself writes and reads the fluid in
+    /// it.
+    /// \throws std::runtime_error if the pores differ from the saved ones, and as the callable that makes the network
     template <class Archive>
     void archive(Archive& ar, Flow& flow, Real const* radii) {
         ar(fixed_length{made_at_});
         if constexpr (Archive::is_loading::value) {
             for (auto const& x : made_at_)
                 for (int axis = 0; axis < Dim; ++axis) require_state(std::isfinite(x[axis]), "where its pores were made");
-            auto const places = view_points(made_at_);
-            auto network = make_(maker_.get(), places, radii), told = network;
-            archive_shape(ar, told);
-            require_state(same_shape(told, network), "its pores were made in another way");
-            require_state(told.size.size() == network.size.size(), "the sizes of its pores");
-            for (Real const size : told.size) require_state(size > Real(0) && std::isfinite(size), "the size of a pore");
-            network.size = told.size;
-            flow.restore(Flow(flow.settings(), std::move(network), thickness_, places, radii).network(), flow.ledger());
+            auto const positions = view_points(made_at_);
+            auto network = make_(maker_.get(), positions, radii), saved = network;
+            archive_shape(ar, saved);
+            require_state(same_shape(saved, network), "its pores were made in another way");
+            require_state(saved.size.size() == network.size.size(), "the sizes of its pores");
+            for (Real const size : saved.size) require_state(size > Real(0) && std::isfinite(size), "the size of a pore");
+            network.size = saved.size;
+            flow.restore(Flow(flow.settings(), std::move(network), thickness_, positions, radii).network(), flow.ledger());
         } else {
             archive_shape(ar, flow.network());
         }
@@ -106,7 +108,7 @@ public:
     }
 
 private:
-    void keep_places(points_view<Real, Dim> points) {
+    void store_positions(points_view<Real, Dim> points) {
         made_at_.resize(points.size());
         for (std::size_t k = 0; k < points.size(); ++k) made_at_[k] = points[k];
     }
@@ -132,12 +134,12 @@ private:
     std::shared_ptr<void const> maker_;
     network_type (*make_)(void const*, points_view<Real, Dim>, Real const*) = nullptr;
     mesh_watch<Real> watch_;
-    std::vector<vec<Real, Dim>> made_at_; // centres when the present mesh was made
+    std::vector<vec<Real, Dim>> made_at_; // centres of the particles when the present mesh was made
     Real thickness_ = Real(1);
     std::size_t bonds_ = 0;
 };
 
-/// In space pores keep their mesh: simulation_parameters allow for no other rule.
+/// In 3D pores keep their mesh; simulation_parameters::validate() refuses other rules.
 template <class Flow, class Real>
 class remesher<Flow, Real, 3> {
 public:

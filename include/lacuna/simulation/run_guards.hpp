@@ -16,7 +16,7 @@
 
 namespace lacuna {
 
-/// The guards of a run: what they were told, and what they have seen.
+/// The guards of a run: their settings and their state.
 template <class Model>
 class run_guards {
 public:
@@ -26,7 +26,7 @@ public:
     using damping_type = typename Model::damping;
 
     run_guards() = default;
-    /// \throws std::invalid_argument for a packing that cannot be computed with; see start_checks.hpp
+    /// \throws std::invalid_argument for a packing that cannot be simulated; see start_checks.hpp
     template <class Pairs>
     run_guards(store_type const& store, Pairs const& pairs, guard_parameters const& guards,
                typename damping_type::parameters const& damping, bool allow_unstable_step)
@@ -36,15 +36,15 @@ public:
     }
 
     real smallest_radius() const noexcept { return extent_.smallest_radius; }
-    /// Takes notice of a particle whose velocity was given; -1: none.
+    /// Lets the resolution guard follow a particle that was given a velocity; -1: none.
     void follow(store_type const& store, std::int32_t given) noexcept {
         if (given >= 0 && guards_.resolution) resolution_.follow(store, given, real(0.5));
     }
 
-    /// Looks at the motion of a step, and at overlaps.
-    /// \param given the fastest of the particles whose velocity was given before this step, -1: none
-    /// \return an upper bound of the path of every particle in the step, m
-    /// \throws unstable_run
+    /// Checks the motion of a step, and overlaps.
+    /// \param given fastest of the particles that were given a velocity before this step; -1: none
+    /// \return upper bound of the path of every particle in the step, m
+    /// \throws unstable_run as the guards require
     template <class Pairs>
     real check_motion(store_type const& store, Pairs const& pairs, std::span<motion_report<real> const> reports, real dt,
                       std::int32_t given, moment const& now) {
@@ -63,7 +63,7 @@ public:
         if (guards_.resolution) check_resolution(store, dt, moved.path, now);
         return moved.path;
     }
-    /// \throws unstable_run when an energy is not a number, or energy has come from nowhere
+    /// \throws unstable_run if an energy is not a number, or energy has no source
     void check_energy(store_type const& store, energy_ledger const& ledger, double dt, moment const& now) const {
         if (!ledger.complete && std::isfinite(ledger.kinetic + ledger.external)) return;
         if (!std::isfinite(ledger.residual()))
@@ -71,13 +71,13 @@ public:
                            "a stiffness, a mass, a load or a pressure is so large or so small that it leaves the range of " +
                                precision_text<real>());
         if (!guards_.energy || unstable_step_ || !(ledger.residual() > 0.5 * ledger.largest())) return;
-        // In each step rounding may add what particles have that move by a spacing of numbers in a step.
+        // In each step rounding may add the energy of particles that move by one spacing of numbers per step.
         double mass = 0;
         for (std::size_t k = 0; k < store.size(); ++k) mass += double(store.mass(k));
         double const speed = double(extent_.spacing()) / dt;
         lacuna::check_energy(store, ledger, 0.5 * mass * speed * speed * double(16 + now.step), now);
     }
-    /// Callable () -> as crushed_bond().
+    /// Callable () -> result of crushed_bond().
     template <class Pairs>
     static auto crushed(store_type const& store, Pairs const& pairs) {
         return [&store, &pairs] { return crushed_bond<typename Model::bond_law>(store, pairs); };
@@ -112,27 +112,27 @@ private:
                 change = 4 * std::numeric_limits<real>::epsilon();
             }
             if (k >= 0) resolution_.follow(store, k, change);
-            return; // from the next step on
+            return; // the watch begins with the next step
         }
         auto const lost = resolution_.look(store, double(dt));
         if (lost.particle < 0) return;
         auto const velocity = store.velocity(std::size_t(lost.particle));
         throw_unstable(store, now, lost.particle,
                        "its motion is lost to rounding: at a velocity of " + to_text(velocity) + " m/s it moved " +
-                           to_text(lost.made) + " m instead of " + to_text(lost.meant) + " m, by steps of " +
+                           to_text(lost.actual) + " m instead of " + to_text(lost.expected) + " m, by steps of " +
                            to_text(double(norm(velocity)) * double(dt)) + " m where numbers of " +
                            precision_text<real>() + " are " + to_text(lost.spacing) + " m apart",
                        std::string("it is too far from the origin: shift the body to the origin, ") +
                            (sizeof(real) < 8 ? "use double precision, " : "") + "or take a longer time step");
     }
-    /// Whether a force can hold a velocity at a small value, where a body that is at rest has no motion that is meant.
+    /// Whether there is damping. Damping can keep small velocities of a packing at rest alive that are no real motion.
     static bool damps(typename damping_type::parameters const& p) {
         bool any = damping_type::particle_force(p, 1.0, -1.0) != 0;
         if constexpr (damping_type::acts_on_pairs) any = any || damping_type::pair_force(p, 1.0, 1.0, 1.0, 1.0) != 0;
         if constexpr (requires { damping_type::drag_rate(p); }) any = any || damping_type::drag_rate(p) != 0;
         return any;
     }
-    /// Why particle k may be so fast, or -1 for any.
+    /// Text with the likely reasons why particle k, or any particle for -1, is so fast.
     template <class Pairs>
     std::string cause_of_motion(store_type const& store, Pairs const& pairs, std::int32_t k, double dt,
                                 std::int32_t given, moment const& now) const {

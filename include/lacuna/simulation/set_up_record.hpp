@@ -11,14 +11,14 @@
 
 namespace lacuna {
 
-/// What can be said to a simulation before its first step, by kind.
+/// Kinds of calls to a simulation before its first step.
 enum class set_up : std::uint8_t { loads, fixed_axes, velocities, plates, walls, fluid };
 inline constexpr std::size_t set_up_kinds = 6;
-/// As messages tell them.
+/// Names of these kinds in messages.
 inline constexpr char const* set_up_names[set_up_kinds] = {
     "loads", "fixed axes", "velocities", "rigid plates", "motions of walls", "pressures and sources of the fluid"};
 
-/// Hash of numbers, in their order. Both zeros count as one.
+/// Hash of a sequence of numbers. Both zeros, +0 and -0, have the same hash.
 class set_up_hash {
 public:
     template <class T>
@@ -38,7 +38,7 @@ public:
     }
     std::uint64_t value() const noexcept { return state_; }
 
-    /// Of one set of numbers; never 0, so that a sum of hashes is 0 only of none.
+    /// Hash of some numbers. It is never 0.
     template <class... T>
     static std::uint64_t of(T const&... value) noexcept {
         set_up_hash h;
@@ -57,19 +57,19 @@ private:
     std::uint64_t state_ = 0x243f6a8885a308d3u;
 };
 
-/// What a simulation was given before its first step, as hashes: what came of the calls, not in which order they were made.
+/// Hashes of a simulation's input before its first step. They depend on the results of the calls, not on their order.
 struct set_up_record {
-    std::uint64_t places = 0;                          ///< of the particles in the packing
-    std::uint64_t pores = 0;                           ///< as they were filled: shape
-    std::uint64_t fluid = 0;                           ///< as they were filled: pressures, sources
-    std::uint8_t called = 0;                           ///< bit by kind: there was a call
+    std::uint64_t positions = 0;                      ///< of the particles in the packing
+    std::uint64_t pores = 0;                          ///< shape of the pores when they were filled
+    std::uint64_t fluid = 0;                          ///< pressures and sources when the pores were filled
+    std::uint8_t called = 0;                          ///< one bit per kind: whether there was a call
     std::array<std::uint64_t, set_up_kinds> result{}; ///< by kind; 0 without a call
 
     void call(set_up kind) noexcept { called = std::uint8_t(called | (1u << unsigned(kind))); }
     bool was_called(set_up kind) const noexcept { return called >> unsigned(kind) & 1; }
 };
 
-/// Of the shape of a pore network.
+/// Hash of the shape of a pore network.
 template <class Network>
 std::uint64_t hash_of_shape(Network const& net) noexcept {
     set_up_hash h;
@@ -95,7 +95,7 @@ std::uint64_t hash_of_shape(Network const& net) noexcept {
     return h.value();
 }
 
-/// Of what is in a pore network.
+/// Hash of the fluid in a pore network: pressures and sources.
 template <class Network>
 std::uint64_t hash_of_fluid(Network const& net) noexcept {
     set_up_hash h;

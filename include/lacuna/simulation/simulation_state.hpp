@@ -24,8 +24,8 @@
 namespace lacuna {
 
 LACUNA_BEGIN_PACKS
-/// The parts of a model at one instant: particles, pairs, walls, loads, fluid, and what they exert on each other. What moves it
-/// on in time (explicit_stepper) is apart from it.
+/// State of a model at one instant: particles, pairs, walls, loads, fluid, and the forces between them.
+/// explicit_stepper advances it in time.
 template <class Model>
 struct simulation_state {
     using model_type = Model;
@@ -60,25 +60,25 @@ struct simulation_state {
     }
 
     bool filled() const noexcept { return fluid.get() != nullptr; }
-    /// Lists anew the particles that are close to each wall.
+    /// Updates the list of particles close to each wall.
     void update_walls() {
         if (walls.empty()) return;
         walls.update(store, pairs.neighbors().settings().skin, real(settings.interactions.initial_contact_tolerance));
     }
-    /// Gives particle k a velocity, m/s; the ledger books the change of kinetic energy as work from outside.
+    /// Gives particle k a velocity, m/s. The ledger counts the change of kinetic energy as external work.
     void apply_velocity_change(std::size_t k, point const& v) {
         changes.add(store, k, false);
         ledger.book_work(0.5 * double(store.mass(k)) * (squared_norm(v) - squared_norm(convert<double>(store.velocity(k)))));
         store.set_velocity(k, convert<real>(v));
     }
-    /// The same for its spin, rad/s.
+    /// Gives particle k a spin, rad/s, in the same way.
     void apply_spin_change(std::size_t k, vec<double, rotation_dim<dim>> const& w) {
         changes.add(store, k, true);
         ledger.book_work(0.5 * double(store.moment_of_inertia(k)) * (squared_norm(w) - squared_norm(convert<double>(store.spin(k)))));
         store.set_spin(k, convert<real>(w));
     }
 
-    /// Writes or reads all that steps and calls change, but for the clock.
+    /// Writes or reads all state that steps and calls change, except for the clock.
     template <class Archive>
     void serialize(Archive& ar) {
         ar(store);
@@ -109,12 +109,13 @@ struct simulation_state {
     wall_drive<dim> wall_motions;
     prescribed_motion<dim> motions;
     rigid_plates<real, dim> plates;
-    velocity_changes<real, dim> changes; ///< since the last step
-    record_column<real> other_forces;    ///< of all but pairs and loads, as the integrators read them
+    velocity_changes<real, dim> changes;      ///< since the last step
+    record_column<real> other_forces;         ///< all forces but those of pairs and loads, in the layout of the integrators
     std::vector<motion_report<real>> reports; ///< of the last step, by chunk
-    std::vector<event_type> events;      ///< failures of the last step
+    std::vector<event_type> events;           ///< failures of the last step
     pair_energy wall_energy;
-    std::array<double, 2> wall_power{}, own_power{}; ///< of walls, of own forces, with velocities before and after the step, W
+    /// Power of walls and of the model's own forces, with velocities before and after the step, W.
+    std::array<double, 2> wall_power{}, own_power{};
     ledger_keeper<real> ledger;
     run_guards<Model> guards;
 

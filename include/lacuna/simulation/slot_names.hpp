@@ -4,9 +4,9 @@
 #include <lacuna/core/standard.hpp>
 
 /// \file
-/// Names that a person may give to a member of a model and mean a slot: the language cannot say which members a model has,
-/// so that a misspelt slot would leave the default in place. These are refused: a letter left out, doubled or exchanged with
-/// the next, and names that other codes use. A name that is not here is still taken for a member of the model's own.
+/// Refuses misspelt names of a model's slots. C++ cannot list the members of a model, so a misspelt slot would silently
+/// leave the default in place. Refused are names with one letter left out, doubled or swapped with the next, and names
+/// that other codes use. Any other name is accepted as an additional member of the model.
 
 namespace lacuna::detail {
 

@@ -16,7 +16,7 @@
 #include <lacuna/particles/store.hpp>
 
 /// \file
-/// Whether a packing can be computed with, before the first step.
+/// Checks before the first step that a packing can be simulated.
 
 namespace lacuna {
 
@@ -25,13 +25,14 @@ std::string precision_text() {
     return sizeof(Real) < 8 ? "single precision" : "double precision";
 }
 
-/// Largest |coordinate| of all particles and the smallest radius, m, and whose they are.
+/// Largest |coordinate| of all particles and smallest and largest radius, m. `furthest` and `smallest` are the internal
+/// indices of the particles with the largest coordinate and with the smallest radius.
 template <class Real>
 struct body_extent {
     Real reach = 0, smallest_radius = 1, largest_radius = 0;
     std::int32_t furthest = -1, smallest = -1;
 
-    /// How far two numbers are apart where particles are, at most, m.
+    /// Largest spacing of numbers at the particles, m.
     Real spacing() const noexcept { return std::numeric_limits<Real>::epsilon() * (reach + largest_radius); }
 };
 template <class Real, int Dim>
@@ -63,16 +64,18 @@ void require_resolved(particle_store<Real, Dim> const& store, body_extent<Real> 
                ", or switch guards.resolution off");
 }
 
-/// What is found in the pairs of the start.
+/// Overlaps in the initial packing.
 struct start_pairs {
-    double deepest = 0;                            ///< overlap of two particles in contact over the smaller radius, 1
-    std::array<std::int32_t, 2> particles{-1, -1}; ///< their ids
-    std::vector<std::int32_t> deep_bonds;          ///< bonds made at more than 0.9 of the limit: bodies of overlapping particles; sorted
+    double deepest = 0;                            ///< largest overlap of a contact over the smaller radius, 1
+    std::array<std::int32_t, 2> particles{-1, -1}; ///< ids of its two particles
+    /// Labels of bonds with an overlap above 0.9 of the limit, sorted: they belong to solids of overlapping particles.
+    std::vector<std::int32_t> deep_bonds;
 };
 
-/// \param limit of the overlap of two particles that are not bonded, over the smaller radius, 1
-/// \throws std::invalid_argument for two particles at the same place, or so close that rounding decides on their
-///         direction, and for an overlap beyond the limit
+/// Checks the distances of all pairs in the initial packing.
+/// \param limit largest overlap of two particles that are not bonded, over the smaller radius, 1
+/// \throws std::invalid_argument for two particles at the same position, or so close that rounding determines their
+///         direction, and for an overlap above the limit
 template <class Real, int Dim, class Interactions>
 start_pairs check_start(particle_store<Real, Dim> const& store, Interactions const& pairs, double limit) {
     start_pairs found;
@@ -106,14 +109,14 @@ start_pairs check_start(particle_store<Real, Dim> const& store, Interactions con
     auto const who = [](std::array<std::int32_t, 2> const& ids) {
         return "particles " + std::to_string(ids[0]) + " and " + std::to_string(ids[1]);
     };
-    auto const place = [&](std::int32_t id) { return store.position(std::size_t(store.internal(std::size_t(id)))); };
+    auto const position = [&](std::int32_t id) { return store.position(std::size_t(store.internal(std::size_t(id)))); };
     if (same != none)
-        throw std::invalid_argument(who(same) + " are at the same place " + to_text(place(same[0])) +
+        throw std::invalid_argument(who(same) + " are at the same place " + to_text(position(same[0])) +
                                     " m, or closer than rounding: must be apart, else their contact has no direction");
     if (deep != none) {
         double const overlap = double(overlap_of(store, store.internal(std::size_t(deep[0])), store.internal(std::size_t(deep[1]))));
-        throw std::invalid_argument("initial overlap of " + who(deep) + " at " + to_text(place(deep[0])) + " and " +
-                                    to_text(place(deep[1])) + " m = " + to_text(overlap) +
+        throw std::invalid_argument("initial overlap of " + who(deep) + " at " + to_text(position(deep[0])) + " and " +
+                                    to_text(position(deep[1])) + " m = " + to_text(overlap) +
                                     " of the smaller radius: must be at most " + to_text(limit) + " (guards.overlap_limit)");
     }
     return found;

@@ -20,8 +20,8 @@ namespace lacuna {
 LACUNA_BEGIN_PACKS
 /// Counts the steps of a run, and sets their length.
 ///
-/// A step of our choice is a share of the critical one and follows it. A given step stays; the run ends when it is not safe any
-/// more, unless allow_unstable_step is set.
+/// Without a given step the clock chooses a share of the critical step and follows it. A given step stays; the run ends
+/// once it is unsafe, unless allow_unstable_step is set.
 template <class Model>
 class step_clock {
 public:
@@ -33,9 +33,9 @@ public:
 
     long long step() const noexcept { return step_; }
     bool is_resolved() const noexcept { return time_step_.has_value(); }
-    /// s; not a number until it is resolved.
+    /// Length of the next step, s; NaN until resolve().
     double time_step() const noexcept { return time_step_.value_or(std::numeric_limits<double>::quiet_NaN()); }
-    /// Length of the step before, s; before the first step that of the first.
+    /// Length of the last step, s. Before the first step: the length of the first.
     double previous_step() const noexcept { return step_ > 0 ? previous_ : time_step(); }
     /// Time of the positions, s.
     double time() const noexcept {
@@ -44,27 +44,29 @@ public:
     moment now() const noexcept { return {step_, time()}; }
     step_control<Model> const& control() const noexcept { return control_; }
 
-    /// The next step resolves the length anew: what it depends on has changed before the first step.
+    /// Discards the length of the first step, because its reasons have changed; the next resolve() determines it again.
     void reset() noexcept { time_step_.reset(); }
-    /// Supports have changed.
+    /// Call it when particles were fixed or released.
     void supports_changed() noexcept { control_.forget_forecast(); }
 
-    /// Sets the length of the first step: the given one if it is stable, else a share of the critical one. Does nothing when it
-    /// is known.
-    /// \throws std::invalid_argument for a given step above the stable limit, and without any stiffness for none given;
-    ///         std::logic_error when the pores of a model with fluid are not filled
+    /// Determines the length of the first step: the given step if it is stable; a share of the critical step if none is
+    /// given. Does nothing if the length is known.
+    /// \throws std::invalid_argument for a given step above the stable limit; and if none is given and nothing has a
+    ///         stiffness
+    /// \throws std::logic_error if the pores of a model with fluid are not filled
     void resolve(state_type& s);
 
-    /// Before the forces of a step: looks for the critical step again when it is due, and follows it.
+    /// Call it before the forces of a step. Computes the critical step again if that is due, and follows it.
     /// \return the length of the step, s
-    /// \throws unstable_run for a given step that is not safe any more
+    /// \throws unstable_run for a given step that is no longer safe
     double begin_step(state_type& s) {
         if (control_.looks_now()) update_critical_step(s);
         return previous_ = *time_step_;
     }
-    /// After a step.
-    /// \param max_displacement upper bound of the path of every particle in it, m
-    /// \param remeshed whether the pores were made anew
+    /// Call it after a step.
+    /// \param max_displacement upper bound of the path of every particle in the step, m
+    /// \param remeshed whether the pores have a new mesh
+    /// \throws unstable_run for a given step above the limit of the flow
     void end_step(state_type& s, real max_displacement, bool remeshed) {
         max_displacement_ = max_displacement;
         if (is_watched(s)) {
@@ -90,9 +92,9 @@ public:
 
 private:
     static bool is_given(state_type const& s) noexcept { return s.settings.time_step > 0; }
-    /// Whether the bound is looked for during the run.
+    /// Whether the bound is computed during the run.
     static bool is_watched(state_type const& s) noexcept { return !is_given(s) || !s.settings.allow_unstable_step; }
-    /// Whether numbers can be divided by a step.
+    /// Whether a step is positive and its inverse finite.
     static bool is_step(double step) noexcept { return real(step) > real(0) && std::isfinite(1 / real(step)); }
 
     time_step_limits find(state_type const& s, contact_assumption const& assumed) {
@@ -102,7 +104,7 @@ private:
         return control_.next_assumption(s.store, s.pairs, s.walls, !is_given(s), wide, reach,
                                         double(s.guards.smallest_radius()), s.filled());
     }
-    /// What contacts may become, for control_.
+    /// Updates the forecast of contacts in control_.
     void look_ahead(state_type const& s, double speed, double overlap) {
         control_.look_ahead(s.store, s.pairs, s.walls, s.settings.damping, speed, overlap, !is_given(s));
     }
@@ -113,8 +115,8 @@ private:
         s.pairs.watch_overlaps(control_.assumed().overlap);
     }
 
-    /// The step for a critical one: where nothing counted has a stiffness, that of a contact which may form, s. At the
-    /// present speeds nothing moves further than half of what checked_motion() allows.
+    /// Step to choose for a critical step, s. If nothing that is counted has a stiffness, a contact that may form
+    /// determines it. At the present speeds nothing moves further than half of the default limit of checked_motion().
     double chosen_step(state_type const& s, double critical) const {
         double step = s.settings.safety * (std::isfinite(critical) ? critical : control_.forecast().first_contact());
         if (!std::isfinite(step)) return step;
@@ -132,7 +134,7 @@ private:
                        (found.rigorous <= found.flow ? "the particles, with rotation and fluid stiffness"
                                                      : "the flow between pores") +
                        "; eq. 9 gives " + to_text(found.wave_limit) + " s), or allow_unstable_step");
-        // Where all particles are held no step is too long, and eq. 9 gives one that is of use.
+        // If all particles are fixed, no step is too long, and eq. 9 gives a useful one.
         bool const free = std::isfinite(critical) || std::isfinite(control_.forecast().first_contact());
         double const step = is_given(s) ? s.settings.time_step : chosen_step(s, free ? critical : found.wave_limit);
         if (std::isinf(step))
@@ -151,7 +153,7 @@ private:
         time_step_ = step;
     }
 
-    /// Looks for the bound again, as contacts have formed or got deeper.
+    /// Computes the bound again, because contacts have formed or got deeper.
     void update_critical_step(state_type& s) {
         double const speed = std::max(double(max_displacement_) / previous_, s.walls.fastest());
         if (is_given(s))
@@ -163,7 +165,7 @@ private:
         auto assumed = next_assumption(s, control_.cannot_wait());
         auto found = find(s, assumed);
         if (control_.cannot_wait() && !(*time_step_ <= found.rigorous)) {
-            // What is near may pass: only what is about to touch ends a run.
+            // Near particles may pass each other: only contacts that are about to form may end the run.
             assumed = next_assumption(s);
             found = find(s, assumed);
         }
@@ -182,15 +184,15 @@ private:
         look_ahead(s, speed, assumed.overlap);
         if (double const longer = chosen_step(s, found.rigorous);
             longer > 1.05 * *time_step_ && 2 * speed * longer > assumed.gap) {
-            // In a longer step bodies come together from further away.
+            // In a longer step particles can meet from further away.
             assumed = next_assumption(s, true, 2 * speed * longer);
             found = find(s, assumed);
         }
-        double const critical = found.rigorous; // that of the fluid alone: enforce_flow_limit()
+        double const critical = found.rigorous; // enforce_flow_limit() applies the limit of the fluid
         double const now = *time_step_, most = s.settings.safety * found.flow;
         double const wanted = speed > 0 ? std::min(chosen_step(s, critical), std::max(now, assumed.gap / (2 * speed)))
                                         : chosen_step(s, critical);
-        // A step that could be a little longer is not worth a change.
+        // A slightly longer step is not worth a change.
         bool const follows = s.settings.follow_critical_step;
         bool const shrinks = follows ? wanted < 0.99 * now || now > critical : now > critical;
         bool const grows = follows && std::min(wanted, most) > 1.05 * now;
@@ -198,8 +200,8 @@ private:
         looked(s, assumed, found.rigorous);
     }
 
-    /// Where throats have opened, or pores were made anew, the step may be too long for an explicit flow: one of our
-    /// choice is chosen again, one that was asked for ends the run.
+    /// Checks the limit of an explicit flow, which may have fallen below the step because throats have opened or the
+    /// mesh is new. A chosen step is then chosen again; a given step ends the run.
     void enforce_flow_limit(state_type const& s) {
         if constexpr (has_fluid<Model>) {
             double const limit = flow_limit(*s.fluid.get());
@@ -223,8 +225,8 @@ private:
     std::optional<double> time_step_;
     step_control<Model> control_;
     limit_scratch<dim> scratch_;
-    double previous_ = 0;       ///< length of the last step, s
-    real max_displacement_ = 0; ///< in the last step, m
+    double previous_ = 0;       // length of the last step, s
+    real max_displacement_ = 0; // upper bound for every particle in the last step, m
     long long step_ = 0;
 };
 // Outside the class, for `extern template`: see explicit_stepper.
@@ -241,7 +243,7 @@ void step_clock<Model>::resolve(state_type& s) {
     look_ahead(s, speed, assumed.overlap);
     if (double const reach = is_given(s) ? 0 : 2 * speed * chosen_step(s, found.critical());
         reach > assumed.gap && std::isfinite(reach)) {
-        assumed = next_assumption(s, false, reach); // what may touch within the first step
+        assumed = next_assumption(s, false, reach); // counts contacts that may form within the first step
         found = find(s, assumed);
     }
     time_step_ = first_step(s, found);

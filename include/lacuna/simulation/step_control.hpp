@@ -11,39 +11,39 @@
 
 namespace lacuna {
 
-/// Decides when the bound of the time step has to be looked for again.
+/// Decides when the bound of the time step has to be computed again. Such a computation is called a look.
 ///
-/// A look counts the contacts that touch or are no further apart than a gap; with laws that stiffen, at an overlap at
-/// least. What it found holds until two bodies may have come together by more than the gap, a contact is deeper than
-/// that, or a bond has failed. Then another look is due. Where no contact that may form makes the step unsafe
-/// (contact_forecast), it waits until as many steps have passed as keep its cost small.
+/// A look counts the contacts that touch or have at most a certain gap. For laws that stiffen it counts them with at
+/// least a certain overlap. Its bound holds until two particles may have approached by more than the gap, a contact is
+/// deeper than the overlap, or a bond has failed. Then the next look is due. If no contact that may form can make the
+/// step unsafe (see contact_forecast), the look waits for so many steps that its cost stays small.
 template <class Model>
 class step_control {
 public:
     static constexpr int dim = Model::dim;
     static constexpr bool grows = contact_forecast<Model>::grows;
-    /// A step that is chosen is made for contacts that are deeper by this factor than those which stop the particles: at
-    /// 0.2 of the bound a Hertzian collision takes some 20 steps, and gives the speeds back to 1e-3.
+    /// A chosen step counts overlaps that are larger by this factor than those which stop the particles. At 0.2 of the
+    /// bound a Hertzian collision then takes about 20 steps and restores the speeds within 1e-3.
     static constexpr double chosen_margin = 16;
 
     contact_assumption const& assumed() const noexcept { return assumed_; }
     contact_forecast<Model> const& forecast() const noexcept { return forecast_; }
-    /// Supports have changed: another look is due.
+    /// Discards the forecast and makes a look due, because supports have changed.
     void forget_forecast() noexcept {
         forecast_.forget();
         due_ = true;
     }
     /// Whether a contact that forms may make the step unsafe.
     bool cannot_wait() const noexcept { return !can_wait_; }
-    /// How often a look was made.
+    /// Number of looks so far.
     long long looks() const noexcept { return looks_; }
 
-    /// What to assume next.
-    /// \param chosen the step is one of our choice, not one to be judged
-    /// \param wide a gap that lasts as long as a look should
-    /// \param reach by how much two bodies may approach in a step that is thought of, m
+    /// Assumptions about contacts for the next look.
+    /// \param chosen whether the library chooses the step; false: the step is given and only checked
+    /// \param wide whether the gap should be large enough for the usual time between two looks
+    /// \param reach distance by which two particles may approach in the next step, m
     /// \param smallest_radius m
-    /// \param wet there is fluid, which makes a look dear
+    /// \param wet whether there is fluid, which makes a look expensive
     template <class Store, class Interactions, class Walls>
     contact_assumption next_assumption(Store const& store, Interactions const& pairs, Walls const& walls, bool chosen,
                                        bool wide, double reach, double smallest_radius, bool wet) const {
@@ -56,7 +56,7 @@ public:
         if constexpr (grows) {
             if constexpr (requires { Model::contact_law::expected_overlap; })
                 if (chosen) next.overlap = Model::contact_law::expected_overlap;
-            // Slowly: the bodies that were fast, or deep, at the last look may only have turned round.
+            // Decreases slowly: particles that were fast, or deep in contact, at the last look may just be reversing.
             if (chosen) next.overlap = std::max(next.overlap, assumed_.overlap / 2);
             next.overlap = std::max(next.overlap, deeper * deepest_);
             double const margin = chosen ? chosen_margin : 1;
@@ -73,21 +73,28 @@ public:
         return next;
     }
 
-    /// What may come, for a speed of the fastest body, m/s.
+    /// Updates the forecast of contacts.
+    /// \param speed speed of the fastest particle or wall, m/s
+    /// \param overlap least overlap of contacts, as a share of the smaller radius, 1
+    /// \param chosen whether the library chooses the step
     template <class Store, class Interactions, class Walls>
     void look_ahead(Store const& store, Interactions const& pairs, Walls const& walls,
                     typename Model::damping::parameters const& damping, double speed, double overlap, bool chosen) {
         forecast_.update(store, pairs, walls, damping, speed, overlap, chosen ? chosen_margin : 1);
     }
 
-    /// A look has been made.
-    /// \param rigorous bound that it found for the particles, s
-    /// \param accurate the step above which a single contact would be followed too coarsely, s
+    /// Records a look.
+    /// \param assumed assumptions of the look
+    /// \param time_step present length of the step, s
+    /// \param rigorous bound for the particles from the look, s
+    /// \param accurate longest step that resolves a single contact well enough, s
+    /// \param chosen whether the library chooses the step
+    /// \param wet whether there is fluid
     void looked(contact_assumption const& assumed, double time_step, double rigorous, double accurate, bool chosen,
                 bool wet) noexcept {
         ++looks_;
         assumed_ = assumed;
-        // Where nothing is counted the step is that of contacts to come.
+        // If nothing was counted, the step is that of contacts that may form.
         if (grows && chosen && !std::isfinite(rigorous))
             assumed_.overlap = std::max(assumed_.overlap, std::min(1.0, chosen_margin * forecast_.overlap()));
         approach_ = deepest_ = 0;
@@ -96,22 +103,22 @@ public:
         can_wait_ = time_step <= 0.9 * forecast_.crowded(rigorous);
         price_ = !can_wait_ ? 0 : !chosen ? 4 * price(wet) : time_step <= accurate ? price(wet) : price(wet) / 4;
     }
-    /// After a step.
-    /// \param path upper bound of the path of every particle and wall in it, m
-    /// \param deepest overlap beyond the assumed one that contacts had, as a share of the smaller radius; 0: none
-    /// \param failed whether bonds have failed
+    /// Records the motion of a step.
+    /// \param path upper bound of the path of every particle and wall in the step, m
+    /// \param deepest largest overlap above the assumed one, as a share of the smaller radius, 1; 0: none
+    /// \param failed whether bonds have failed, or another reason makes a look due
     void moved(double path, double deepest, bool failed) noexcept {
         last_approach_ = 2 * path;
         approach_ += last_approach_;
         deepest_ = std::max(deepest_, deepest);
-        // Before the next step may be one too many.
+        // One step early: the next step may already exceed the gap.
         due_ = due_ || failed || !(approach_ + last_approach_ <= assumed_.gap) || (grows && deepest_ > assumed_.overlap);
         credit_ = std::min(credit_ + 1, 4 * price_of_wet_look);
     }
-    /// Whether to look before the next step.
+    /// Whether a look is to be made before the next step.
     bool looks_now() const noexcept { return due_ && (credit_ >= price_ || (grows && deepest_ > forecast_.overlap())); }
 
-    /// Starts anew: before the first step.
+    /// Resets everything, before the first step.
     void reset(bool wet) noexcept {
         *this = {};
         credit_ = 2 * price(wet);
@@ -127,17 +134,17 @@ public:
 private:
     static constexpr double least_gap = 0.01, most_gap = 0.1; ///< over the smallest radius
     static constexpr double deeper = 1.25;
-    /// In steps: what lies between two looks that can wait, where the step is chosen; four times that where it is given. A
-    /// look at a bonded sheet takes as long as 22 steps.
+    /// Number of steps between two looks that can wait if the step is chosen; four times that if it is given. A look at
+    /// a bonded sheet takes as long as 22 steps.
     static constexpr long long price_of_dry_look = 1000, price_of_wet_look = 1600;
     static constexpr long long price(bool wet) noexcept { return wet ? price_of_wet_look : price_of_dry_look; }
-    /// For how many steps a wide gap should do.
+    /// Number of steps for which a wide gap should suffice.
     static constexpr long long lasting(bool wet) noexcept { return wet ? 1600 : 400; }
 
     contact_forecast<Model> forecast_;
     contact_assumption assumed_{};
-    double approach_ = 0, last_approach_ = 0; ///< of two bodies, since the last look and in the last step, m
-    double deepest_ = 0;                      ///< share of the smaller radius
+    double approach_ = 0, last_approach_ = 0; // of two particles, since the last look and in the last step, m
+    double deepest_ = 0;                      // largest overlap since the last look, as a share of the smaller radius
     mutable double found_overlap_ = 0;
     long long credit_ = 0, price_ = 0, looks_ = 0;
     bool due_ = false, can_wait_ = true;

@@ -12,19 +12,19 @@
 
 namespace lacuna {
 
-/// A velocity and spin that a particle had before it was given another one between two steps.
+/// Velocity and spin of a particle before it was given another velocity or spin between two steps.
 template <class Real, int Dim>
 struct velocity_change {
     std::size_t particle; ///< internal index
     vec<Real, Dim> velocity;
     vec<Real, rotation_dim<Dim>> spin;
-    bool of_spin; ///< the spin was given, not the velocity
+    bool of_spin; ///< whether the spin was given, not the velocity
 };
 
 /// The velocities that were given to particles since the last step.
 ///
-/// The slip of a step belongs to the motion before it, which was not made at the new velocities. So the step swaps the old
-/// velocities back in while it evaluates forces.
+/// The slip of a step comes from the motion before it, when the particles had their old velocities. So a step swaps the
+/// old velocities in while it evaluates the forces.
 template <class Real, int Dim>
 class velocity_changes {
 public:
@@ -35,16 +35,16 @@ public:
     auto end() const noexcept { return changes_.end(); }
     void clear() noexcept { changes_.clear(); }
 
-    /// Notes the velocity of particle k, which is about to change.
+    /// Records the velocity and spin of particle k, one of which is about to change.
     void add(particle_store<Real, Dim> const& store, std::size_t k, bool of_spin) {
         changes_.push_back({k, store.velocity(k), store.spin(k), of_spin});
     }
 
-    /// Puts back the velocities from before the changes, the last change first.
+    /// Restores the velocities from before the changes, the last change first.
     void swap_in_old(particle_store<Real, Dim>& store) {
         std::for_each(changes_.rbegin(), changes_.rend(), [&](change& c) { swap_velocities(store, c); });
     }
-    /// Puts back the velocities that were given, the first change first.
+    /// Restores the given velocities, the first change first.
     /// \param after called with each change once its new velocity is in place
     template <class After>
     void swap_in_new(particle_store<Real, Dim>& store, After const& after) {
@@ -54,7 +54,7 @@ public:
         }
     }
 
-    /// The fastest particle that was given a velocity; -1: none.
+    /// Internal index of the fastest particle that was given a velocity; -1: none.
     std::int32_t fastest(particle_store<Real, Dim> const& store) const noexcept {
         std::int32_t found = -1;
         Real speed = -1;
