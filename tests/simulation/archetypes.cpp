@@ -14,7 +14,7 @@
 #include <lacuna/pores/mesh/triangulation.hpp>
 
 /// \file
-/// Parts that have what the concepts of their slots ask for and nothing else: the engine must not use more.
+/// Parts that satisfy the concepts of their slots and have nothing else: the engine must not use more.
 
 using namespace lacuna;
 
@@ -121,7 +121,7 @@ public:
 private:
     std::vector<neighbor_pair> found_;
 };
-/// A wind: the same force on each particle, whatever the pores are.
+/// A wind: the same force on each particle, independent of the pores.
 struct wind {
     struct parameters {
         double force = 0.25; // N
@@ -195,7 +195,7 @@ struct archetypes : default_model<Dim> {
 
 } // namespace
 
-TEMPLATE_TEST_CASE("parts that have what their slots ask for, and no more, make a simulator", "[model]", archetypes<2>,
+TEMPLATE_TEST_CASE("parts that only satisfy the concepts of their slots make a simulator", "[model]", archetypes<2>,
                    archetypes<3>) {
     constexpr int dim = TestType::dim;
     constexpr double dt = 1e-3, k = 100, pull = 0.02, meet = 0.05, force = 0.25;
@@ -221,7 +221,7 @@ TEMPLATE_TEST_CASE("parts that have what their slots ask for, and no more, make 
     sim.set_velocity(3, at(-meet, 0, 0));
     end_watch watch;
 
-    // Two masses of 1 kg on a spring: their distance swings with sqrt(2 k).
+    // Two masses of 1 kg on a spring: their distance oscillates with sqrt(2 k).
     sim.run(100, watch);
     REQUIRE_THAT(watch.time, WithinRel(0.1, 1e-12));
     double const w = std::sqrt(2 * k);
@@ -229,7 +229,7 @@ TEMPLATE_TEST_CASE("parts that have what their slots ask for, and no more, make 
     // An elastic collision exchanges velocities.
     sim.run(500, watch);
     REQUIRE_THAT(sim.velocity(3)[0] - sim.velocity(2)[0], WithinRel(2 * meet, 1e-2));
-    // The wind accelerates all alike: F t for each, and what they were given.
+    // The wind accelerates all particles alike: each gains F t over its initial momentum.
     double momentum = 0;
     for (std::size_t i = 0; i < sim.size(); ++i) momentum += sim.velocity(i)[0];
     REQUIRE_THAT(momentum, WithinRel(double(sim.size()) * force * 0.6 + pull, 1e-9));

@@ -29,7 +29,7 @@ template <int Dim, class Real = double>
 struct held_by_spring : lacuna::default_model<Dim, Real> {
     using forces = lacuna::body_force<spring_and_drag>;
 };
-/// Of one direction only.
+/// A force that acts along one direction only.
 inline constexpr auto lift = [](acted_particle<2> const& p) { return lacuna::vec<double, 2>{0, 0.5 * p.mass * p.time}; };
 struct lifted : lacuna::default_model<2> {
     using forces = lacuna::body_force<decltype(lift)>;
@@ -51,7 +51,7 @@ lacuna::simulation_parameters<Model> of_one_kilogram(double step) {
     p.time_step = step;
     return p;
 }
-/// Particles without contact, some of them bonded.
+/// Particles without contacts; some are bonded.
 template <class Model>
 lacuna::simulation<Model> cloud(int threads) {
     lacuna::packing<double, Model::dim> p;
@@ -74,7 +74,8 @@ lacuna::simulation<Model> cloud(int threads) {
 TEMPLATE_TEST_CASE("a body force: harmonic motion, to the order of the scheme", "[body_force]", (held_by_spring<2>),
                    (held_by_spring<3>), (held_by_spring<2, float>), (held_by_spring<3, float>)) {
     using real = typename TestType::real;
-    // Leapfrog's own frequency: 2 sin(w' dt / 2) / dt = sqrt(k / m) = 3. From rest half a step before x = A at the start.
+    // Frequency of the leapfrog scheme: 2 sin(w' dt / 2) / dt = sqrt(k / m) = 3. From rest half a step before x = A at
+    // the start.
     double const dt = 0.01, w = 2 / dt * std::asin(3 * dt / 2);
     lacuna::simulation<TestType> run(one<TestType::dim, real>(0.25), of_one_kilogram<TestType>(dt));
     for (int n = 0; n < 200; ++n) run.step_with_energy();
@@ -82,14 +83,15 @@ TEMPLATE_TEST_CASE("a body force: harmonic motion, to the order of the scheme", 
     double const expected = 0.25 * std::cos(w * 200.5 * dt) / std::cos(w * dt / 2);
     double const rounding = sizeof(real) == 8 ? 1e-12 : 2e-5;
     CHECK_THAT(run.position(0)[0], WithinAbs(expected, rounding));
-    // Work of the force: what the particle has as kinetic energy.
+    // The work of the force is the kinetic energy of the particle.
     CHECK_THAT(run.energy().external, WithinAbs(run.energy().kinetic, rounding));
     CHECK_THAT(run.energy().residual(), WithinAbs(0.0, rounding));
     CHECK(run.energy().kinetic > 0.01);
     CHECK_THAT(run.force(0)[0], WithinRel(-9 * (run.position(0)[0] - dt * run.velocity(0)[0]), sizeof(real) == 8 ? 1e-12 : 1e-4));
 }
 
-TEMPLATE_TEST_CASE("a body force's derivatives bound the time step", "[body_force]", (held_by_spring<2>), (held_by_spring<3>)) {
+TEMPLATE_TEST_CASE("a body force's derivatives bound the time step",
+                   "[body_force]", (held_by_spring<2>), (held_by_spring<3>)) {
     auto p = of_one_kilogram<TestType>(0);
     lacuna::simulation<TestType> stiff(one<TestType::dim, double>(0.25), p);
     CHECK_THAT(stiff.limits().rigorous, WithinRel(2 / 3.0, 1e-8)); // 2 / sqrt(k / m)
@@ -101,7 +103,7 @@ TEMPLATE_TEST_CASE("a body force's derivatives bound the time step", "[body_forc
     p.time_step = 0.3;
     CHECK_THROWS_WITH(lacuna::simulation<TestType>(one<TestType::dim, double>(0.25), p).step(),
                       contains_text("time_step = 0.3") && contains_text("stable limit"));
-    // Just below the bound the motion stays; a held particle has none.
+    // Just below the bound the motion stays bounded; a fixed particle does not move.
     p.forces.force.drag = 0;
     p.time_step = 0.66;
     p.guards.motion = false;
@@ -122,7 +124,8 @@ TEST_CASE("a body force that depends on time: half of g t^3 / 3", "[body_force]"
 }
 
 TEST_CASE("a body force acts with walls, bonds and plates: a spring against a wall", "[body_force]") {
-    // Two bonded discs pulled to x = 0 with 2 * 9 N/m meet a wall at x = 1; at rest the wall carries the sum of the pulls.
+    // Two bonded discs pulled to x = 0 with 2 * 9 N/m meet a wall at x = 1; at rest the wall carries the sum of the
+    // pulls.
     using model = held_by_spring<2>;
     struct damped : model {
         using damping = lacuna::local_damping;
@@ -156,7 +159,7 @@ TEST_CASE("a body force leaves the same bits for any number of threads and after
     lacuna::load_checkpoint(file, second);
     second.run(3000 - 1234);
     REQUIRE(lacuna::state_hash(second) == lacuna::state_hash(whole));
-    // Another force is another run.
+    // A checkpoint with another force is refused.
     lacuna::simulation_parameters<model> p = whole.settings();
     p.forces.force.stiffness = 51;
     lacuna::packing<double, 2> packing;
@@ -168,7 +171,7 @@ TEST_CASE("a body force leaves the same bits for any number of threads and after
     CHECK_THROWS_WITH(lacuna::load_checkpoint(file, other), contains_text("forces.force.stiffness = 50, here 51"));
 }
 
-TEST_CASE("a body force's own parameters are checked, and a force that is no number ends the run", "[body_force]") {
+TEST_CASE("the parameters of a body force are checked, and a force that is not a number ends the run", "[body_force]") {
     auto p = of_one_kilogram<held_by_spring<2>>(0.01);
     p.forces.force.stiffness = -1;
     CHECK_THROWS_WITH(lacuna::simulation<held_by_spring<2>>(one<2, double>(0), p),

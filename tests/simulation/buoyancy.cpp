@@ -13,7 +13,7 @@
 #include <lacuna/pores/mesh/triangulation.hpp>
 
 /// \file
-/// A fluid with a weight: Archimedes' force on bodies, hydrostatic balance of a wet bed.
+/// A fluid with weight: Archimedes' force on particles, and the hydrostatic balance of a wet bed.
 
 using namespace lacuna;
 
@@ -33,7 +33,7 @@ struct soaked_implicit : soaked<Dim> {
     using flow = implicit_flow_with<constant_aperture>;
 };
 
-/// Discs in rows, triangular, or spheres in a cubic lattice, neighbours bonded; up is +y.
+/// A triangular lattice of discs or a cubic lattice of spheres, with neighbours bonded; up is +y.
 template <int Dim>
 packing<double, Dim> bed() {
     packing<double, Dim> p;
@@ -81,8 +81,8 @@ void check_bed() {
     }
     sim.run(25000);
 
-    // Not before the water that the weight drives out has left: in the meantime it carries some of it.
-    double const submerged = 0.6 * g; // of one body
+    // The water that the weight drives out must leave first: until then it carries part of the weight.
+    double const submerged = 0.6 * g; // weight of one particle, N
     REQUIRE(early > submerged / 20);
     vec<double, dim> surface{};
     surface[1] = 7;
@@ -124,7 +124,7 @@ void check_free_body(mass_model mass, bool densities_of_particles) {
         double const volume = mass == mass_model::disc ? setups::pi * 0.09 : 4 * setups::pi / 3 * 0.027;
         REQUIRE_THAT(sim.mass(0), WithinRel(3 * solid * volume, 1e-14));
         sim.run(1000);
-        // Velocities are those of half a step before.
+        // Velocities hold half a step before the positions.
         double const t = 0.1 - 0.5e-4;
         REQUIRE_THAT(sim.velocity(0)[1], WithinRel(-g * (1 - fluid / (3 * solid)) * t, 1e-3));
         REQUIRE_THAT(sim.velocity(1)[1], WithinAbs(-g * (1 - fluid / solid) * t, 1e-3 * g * t));
@@ -138,7 +138,7 @@ void check_free_body(mass_model mass, bool densities_of_particles) {
 
 } // namespace
 
-TEST_CASE("a body in a fluid at rest loses the weight of what it displaces", "[buoyancy]") {
+TEST_CASE("a particle in a fluid at rest loses the weight of the displaced fluid", "[buoyancy]") {
     for (bool const of_particles : {false, true}) {
         check_free_body<2>(mass_model::disc, of_particles);
         check_free_body<2>(mass_model::sphere, of_particles);

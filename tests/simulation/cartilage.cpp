@@ -72,7 +72,7 @@ TEST_CASE("the energy of a coupled run with cracks, friction and fluid adds up")
     REQUIRE_THAT(run.energy.residual(), WithinAbs(0, 1e-3 * run.energy.largest()));
 }
 
-TEST_CASE("the same of the paper's specimen, 120 by 300 um") {
+TEST_CASE("the energy of a coupled run of the paper's specimen, 120 by 300 um, adds up") {
     auto const s = make_cartilage_specimen<double>({});
     REQUIRE(s.discs.size() > 3000);
     auto const run = coupled_run(s, 60, 1000);
@@ -82,7 +82,7 @@ TEST_CASE("the same of the paper's specimen, 120 by 300 um") {
     REQUIRE_THAT(run.energy.residual(), WithinAbs(0, 1e-3 * run.energy.largest()));
 }
 
-TEST_CASE("the same with water that flows, and its terms among each other") {
+TEST_CASE("the energy of a coupled run with flowing water adds up, and so do its terms") {
     auto const s = specimens::small();
     auto sim = specimens::make(s, 1, 150);
     crack_record<break_event<2>> cracks;
@@ -102,9 +102,9 @@ TEST_CASE("the same with water that flows, and its terms among each other") {
     REQUIRE(e.bond_strain < e.strain);
     REQUIRE(e.shear_fracture <= e.fracture);
     REQUIRE_THAT(e.residual(), WithinAbs(0, 1e-3 * e.largest()));
-    // What the particles did on the fluid is stored there, dissipated or gone.
+    // The work of the particles on the fluid is stored in it, dissipated, or has flowed out.
     REQUIRE_THAT(-e.fluid_work, WithinRel(e.fluid_storage + e.fluid_viscous + e.fluid_outflow, 1e-9));
-    // Terms that a state shows, from scratch.
+    // Terms that follow from the state, recomputed here.
     double stored = 0;
     auto const& net = sim.flow().network();
     for (std::size_t p = 0; p < net.pores(); ++p)
@@ -115,7 +115,7 @@ TEST_CASE("the same with water that flows, and its terms among each other") {
     REQUIRE_THAT(e.fracture, WithinRel(released, 0.2));
 }
 
-TEST_CASE("a pore that is turned over stops the run") {
+TEST_CASE("an inverted pore stops the run") {
     auto p = specimens::parameters(specimens::small());
     p.walls.clear();
     p.time_step = 1e-9;
@@ -125,14 +125,14 @@ TEST_CASE("a pore that is turned over stops the run") {
     sim.fill_pores([](points_view<double, 2> points, double const* radii) {
         return make_pore_network(regular_triangulation(points, radii), points, radii);
     });
-    // The upper one passes between the two others.
+    // The upper particle passes between the two others.
     for (std::size_t k = 0; k < 3; ++k) sim.fix(k);
     sim.set_velocity(2, {0, -1e-8 / p.time_step});
     try {
         sim.run(1000);
         FAIL("nothing was thrown");
     } catch (unstable_run const& e) {
-        // 2e-6 m at 1e-8 m a step; pores are looked at now and then.
+        // 2e-6 m at 1e-8 m per step; pores are checked at least every 64 steps.
         REQUIRE(e.step() >= 199);
         REQUIRE(e.step() < 199 + 64);
         REQUIRE_THAT(e.what(), contains_text("pore 0 between particles") && contains_text("turned over") &&
@@ -164,6 +164,6 @@ TEST_CASE("a symmetric packing under a symmetric load stays symmetric") {
     }
     REQUIRE(moved > 1e-10);
     INFO("moved " << moved << " m, apart " << apart << " m");
-    // Rounding differs between the halves, and neighbours that collide make it grow.
+    // Rounding differs between the halves, and collisions of neighbours amplify it.
     REQUIRE_THAT(apart, WithinAbs(0, 1e-5 * moved));
 }

@@ -38,7 +38,7 @@ struct stop_after {
     }
 };
 
-/// A file that is gone when the test is over.
+/// A file that is removed at the end of the test.
 struct scratch_file {
     explicit scratch_file(std::string name) : path("checkpoint_" + std::move(name) + ".bin") {}
     ~scratch_file() { std::remove(path.c_str()); }
@@ -64,8 +64,8 @@ struct space_viscous_in_single : lacuna::default_model<3, float> {
     using damping = lacuna::viscous_damping;
 };
 
-/// Discs or spheres between a rising floor and a ceiling that holds its stress, half of them bonded, thrown about; some
-/// loads still rise, one is held.
+/// Discs or spheres with random velocities between a rising floor and a ceiling under constant stress, half of them
+/// bonded. Some loads still rise, one is constant.
 template <class Model>
 lacuna::simulation<Model> lively(int threads = 1) {
     constexpr int dim = Model::dim;
@@ -152,7 +152,7 @@ void check_resumed() {
 
 } // namespace
 
-TEST_CASE("a resumed run has the bits of the run that was never stopped", "[checkpoint]") {
+TEST_CASE("a resumed run has the bits of the uninterrupted run", "[checkpoint]") {
     check_resumed<plane>();
     check_resumed<space>();
     check_resumed<space_viscous_in_single>();
@@ -172,7 +172,7 @@ void check_coupled(std::string const& name) {
     double flowed = 0;
     for (double const q : whole.flow().network().flow) flowed = std::max(flowed, std::fabs(q));
     REQUIRE(flowed > 0);
-    // Right after a bond broke, before it is handed over; right before; between; at the ends.
+    // Right after a bond broke and before its hand-over; right before it broke; in between; at the ends.
     auto const broke = all.events()[all.events().size() / 2].step + 1;
     for (long long const at : {1LL, broke - 1, broke, 900LL, 1199LL}) {
         auto first = specimens::make<Model>(s, at == 1 ? 2 : 1);
@@ -195,15 +195,16 @@ struct wet_implicit : specimens::wet {
 
 } // namespace
 
-TEST_CASE("a resumed coupled run has the bits of the one that was never stopped", "[checkpoint][cartilage]") {
+TEST_CASE("a resumed coupled run has the bits of the uninterrupted run", "[checkpoint][cartilage]") {
     check_coupled<specimens::wet>("coupled");
 }
 
-TEST_CASE("the same with the implicit flow, whose factorisation is older than the checkpoint", "[checkpoint][cartilage]") {
+TEST_CASE("a resumed run with implicit flow has the same bits, though its factorisation is older than the checkpoint",
+          "[checkpoint][cartilage]") {
     check_coupled<wet_implicit>("implicit");
 }
 
-TEST_CASE("a checkpoint that is not sound is refused, and nothing changes", "[checkpoint]") {
+TEST_CASE("a damaged or foreign checkpoint is refused, and nothing changes", "[checkpoint]") {
     scratch_file const file("spoilt");
     auto p = springs<plane>(1, 1, 0.3, unit_density(2));
     p.time_step = 0.05;
@@ -230,7 +231,7 @@ TEST_CASE("a checkpoint that is not sound is refused, and nothing changes", "[ch
         }
         REQUIRE_THAT(attempt(sound.substr(0, sound.size() / 2)), contains_text(file.path) && contains_text("truncated"));
     }
-    SECTION("any byte flipped") {
+    SECTION("with any byte flipped") {
         for (std::size_t k = 0; k < sound.size(); ++k) {
             std::string spoilt = sound;
             spoilt[k] = char(spoilt[k] ^ (1 << (k % 8)));
@@ -285,7 +286,7 @@ TEST_CASE("a checkpoint that is not sound is refused, and nothing changes", "[ch
         lacuna::simulation<plane> threaded(chain<2>(3), q);
         REQUIRE(why([&] { lacuna::load_checkpoint(file.path, threaded, cracks); }) == "accepted");
     }
-    SECTION("a state that contradicts itself behind a sound envelope") {
+    SECTION("with an inconsistent state in an undamaged file") {
         auto content = lacuna::read_checkpoint(file.path);
         auto const whole = content.state;
         for (std::size_t length : {std::size_t(0), std::size_t(1), whole.size() / 2, whole.size() - 1}) {
@@ -301,7 +302,8 @@ TEST_CASE("checkpoint_every refuses an interval below one", "[checkpoint][refusa
     REQUIRE_THROWS_AS(lacuna::checkpoint_every(0, "name"), std::invalid_argument);
 }
 
-TEST_CASE("a series of frames is that of the run never stopped, resumed with and without being kept", "[checkpoint][vtk]") {
+TEST_CASE("a series of frames is that of the uninterrupted run, whether the checkpoint saves it or not",
+          "[checkpoint][vtk]") {
     namespace fs = std::filesystem;
     struct model : lacuna::default_model<2> {};
     auto const make = [] {
@@ -339,7 +341,7 @@ TEST_CASE("a series of frames is that of the run never stopped, resumed with and
     scratch_file const file("series");
     for (bool const kept : {false, true})
         for (long long const at : {50, 53}) {
-            // The first part goes on for a while after its checkpoint, as one does that is killed.
+            // The first part continues for a while after its checkpoint, like a run that is killed.
             {
                 auto sim = make();
                 lacuna::vtk_series<> frames(parts.path + "/run", 10);
@@ -366,7 +368,7 @@ TEST_CASE("a series of frames is that of the run never stopped, resumed with and
             sim.run(100 - at, frames);
             REQUIRE(files(parts.path) == expected);
         }
-    // Another run from the start in the same place lists its own frames alone.
+    // A new run from the start in the same directory lists its own frames only.
     auto sim = make();
     lacuna::vtk_series<> frames(parts.path + "/run", 10);
     sim.run(20, frames);

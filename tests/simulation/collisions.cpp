@@ -35,7 +35,7 @@ struct collision {
     }
 };
 
-/// A body of radius 0.5 m, at the overlap that carries `weight`, on the wall y = 0.
+/// A particle of radius 0.5 m on the wall y = 0, with the overlap that carries `weight`.
 template <class Model>
 lacuna::simulation<Model> on_wall(lacuna::simulation_parameters<Model> p, double overlap) {
     p.walls = {{{0, 0}, {0, 1}, p.materials[0].contact}};
@@ -67,7 +67,7 @@ TEST_CASE("two discs collide as a half period of their spring", "[collision]") {
     REQUIRE_THAT(c.run.velocity(1)[0] - c.run.velocity(0)[0], WithinRel(0.1 * reference("1a.e"), 1e-3));
 }
 
-TEST_CASE("discs of unequal mass part as bodies of a line do", "[collision]") {
+TEST_CASE("discs of unequal mass separate as in a collision along a line", "[collision]") {
     double const duration = reference("1a.e_unequal", "t_c"), dt = duration / 1000;
     auto p = springs<plane>(1e6, 1e6);
     p.materials.push_back(p.materials[0]);
@@ -91,9 +91,9 @@ TEST_CASE("a dashpot takes out energy, and a contact never pulls", "[collision]"
     }
 }
 
-TEST_CASE("a sliding body ends up rolling", "[collision][friction]") {
-    // The lever arm of friction is the distance from the wall. A stiff normal spring makes it the radius to 2e-6,
-    // so that the references, for a rigid contact, hold; the overlap of the soft spring enters the closed form.
+TEST_CASE("a sliding particle ends up rolling", "[collision][friction]") {
+    // The lever arm of friction is the distance from the wall. With a stiff normal spring it differs from the radius by
+    // 2e-6, so that the references for a rigid contact hold. For the soft spring the closed form has the overlap.
     for (bool const sphere : {false, true})
         for (double const kn : {1e10, 1e6}) {
             std::string const id = sphere ? "1c.sphere" : "1c.disc";
@@ -110,14 +110,14 @@ TEST_CASE("a sliding body ends up rolling", "[collision][friction]") {
             double const b = (sphere ? 0.4 : 0.5) * 0.25 / (lever * lever);
             double const final_speed = kn > 1e8 ? reference(id, "v_final/v0") : 1 / (1 + b);
             double const rolls_at = kn > 1e8 ? reference(id, "t_roll") : b / (0.3 * 9.81 * (1 + b));
-            // The spring has to be loaded before friction has its full value: F / k_s of path at full speed.
+            // Friction has its full value once the spring is loaded: after a path F / k_s at full speed.
             double const loading = 0.3 * mass * 9.81 / 1e6;
             REQUIRE_THAT(run.time(), WithinAbs(rolls_at, loading));
             if (kn > 1e8) {
                 REQUIRE_THAT(run.position(0)[0], WithinAbs(reference(id, "slide_distance"), loading));
                 REQUIRE_THAT(1 - run.kinetic_energy() / before, WithinRel(reference(id, "KE_lost_fraction"), 1e-3));
             }
-            // From here on the shear spring rings; its period follows from k_s (1/m + lever^2/I).
+            // From here on the shear spring oscillates; its period follows from k_s (1/m + lever^2/I).
             double const omega = std::sqrt(1e6 * (1 + 1 / b) / mass);
             int const steps = int(std::lround(10 * 2 * pi / omega / run.time_step()));
             double mean = 0, high = -1, low = 2;
@@ -133,7 +133,7 @@ TEST_CASE("a sliding body ends up rolling", "[collision][friction]") {
         }
 }
 
-TEST_CASE("a block slides, stops, and swings on its shear spring", "[collision][friction]") {
+TEST_CASE("a block slides, stops, and oscillates on its shear spring", "[collision][friction]") {
     auto p = springs<plane>(1e6, 1e6, 0.3);
     p.gravity = {0, -9.81};
     p.time_step = 2e-5;
@@ -163,9 +163,9 @@ TEST_CASE("a block slides, stops, and swings on its shear spring", "[collision][
     REQUIRE_THAT((crossed - start) / 10, WithinRel(reference("1c.block", "osc_period"), 1e-3));
 }
 
-// The references are for a contact at the radius; here the lever arm is the distance from the wall, which lies below
-// the radius by an overlap of 5.6e-4 of it at 0.01 m/s. Rotations that are small differences of large ones feel it:
-// these are compared at a hundredth of the speed, where nothing else of the set-up's dimensionless numbers changes.
+// The references are for a contact at the radius. Here the lever arm is the distance from the wall, which is smaller by
+// the overlap: 5.6e-4 of the radius at 0.01 m/s. This affects rotations that are small differences of large ones. They
+// are compared at a hundredth of the speed, where the other dimensionless numbers of the set-up are the same.
 TEST_CASE("oblique impact on a wall with friction", "[collision][friction]") {
     std::string const id = "1d.oblique_mu0.3_ks=kn_disc";
     for (std::string const ratio : {"0.2", "0.5", "1", "1.5", "3"})

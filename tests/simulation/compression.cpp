@@ -8,7 +8,7 @@
 #include "simulation/setups.hpp"
 
 /// \file
-/// Compression tests of square and cubic lattices: columns of springs in series, which know nothing of each other.
+/// Compression tests of square and cubic lattices: independent columns of springs in series.
 
 using namespace setups;
 
@@ -71,7 +71,7 @@ TEMPLATE_TEST_CASE_SIG("biaxial and triaxial compression hold the sides and load
             CHECK_THAT(loaded.stress[axis], WithinRel(20.0, 1e-2));
             CHECK_THAT(loaded.strain[axis], WithinAbs(0, 1e-4));
         }
-    // What the platens did went into the springs.
+    // The work of the platens is stored in the springs.
     CHECK(std::fabs(sim.energy().residual()) < 1e-3 * sim.energy().largest());
 }
 

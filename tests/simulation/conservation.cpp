@@ -7,7 +7,7 @@ using namespace setups;
 
 namespace {
 
-/// Numbers in (-1, 1) that look like chance.
+/// Reproducible pseudo-random numbers in (-1, 1).
 struct sequence {
     std::uint64_t state = 12345;
     double operator()() {
@@ -49,7 +49,7 @@ void check_momentum(double friction, double tensile, double shear, double speed)
     for (std::size_t k = 0; k < run.size(); ++k) {
         lacuna::vec<double, dim> v{};
         lacuna::vec<double, lacuna::rotation_dim<dim>> w{};
-        // Inwards, so that contacts close, slide and open.
+        // Velocities point inwards, so that contacts form, slide and separate.
         for (int axis = 0; axis < dim; ++axis) v[axis] = speed * (next() - 0.3 * (run.position(k)[axis] - 2));
         for (int axis = 0; axis < lacuna::rotation_dim<dim>; ++axis) w[axis] = 3 * speed * next();
         run.set_velocity(k, v);
@@ -66,7 +66,7 @@ void check_momentum(double friction, double tensile, double shear, double speed)
     }
     REQUIRE(norm(momentum(run) - linear) < 1e-12 * scale_p);
     REQUIRE(norm(angular_momentum(run) - angular) < 1e-12 * scale_l);
-    // The run did what it is meant to do.
+    // The run contains the events that the test needs.
     REQUIRE((broken > 3) == (tensile < 1e10));
     if (friction > 0) REQUIRE(run.energy().friction > 0.01 * run.energy().initial);
     REQUIRE(std::fabs(run.energy().residual()) < 0.05 * run.energy().largest());
@@ -74,14 +74,14 @@ void check_momentum(double friction, double tensile, double shear, double speed)
 
 } // namespace
 
-TEST_CASE("momentum of a free cluster in the plane", "[conservation]") {
+TEST_CASE("a free cluster in 2D conserves momentum", "[conservation]") {
     check_momentum<plane>(0, never, never, 0.05);
     check_momentum<plane>(0.5, never, never, 0.2);
     check_momentum<plane>(0.5, 1, 1, 0.2);
     check_momentum<plane_viscous>(0.5, 1, 1, 0.2);
 }
 
-TEST_CASE("momentum of a free cluster in space", "[conservation][3d]") {
+TEST_CASE("a free cluster in 3D conserves momentum", "[conservation][3d]") {
     check_momentum<space>(0, never, never, 0.05);
     check_momentum<space>(0.5, 1, 1, 0.2);
 }
@@ -91,7 +91,7 @@ TEST_CASE("the energy of a linear bonded chain adds up to rounding", "[energy]")
     p.time_step = 0.3;
     lacuna::simulation<plane> run(chain<2>(12), p);
     run.fix(0);
-    // Large against the rounding of positions of some 10 m, which is what remains.
+    // Large compared with the rounding of positions of about 10 m, the only error that remains.
     run.apply(11, {0.02, 0});
     for (std::size_t k = 1; k < 12; ++k) run.set_velocity(k, {0.01 * std::sin(3.7 * double(k)), 0});
     double worst = 0;
@@ -105,7 +105,7 @@ TEST_CASE("the energy of a linear bonded chain adds up to rounding", "[energy]")
 }
 
 TEST_CASE("the energy terms of a spring at rest, of a load, of a prescribed motion", "[energy]") {
-    // One free disc (m = 1 kg) on a spring k = 1 N/m, loaded by F = 1e-4 N at once: it swings between 0 and 2 F/k.
+    // One free disc (m = 1 kg) on a spring k = 1 N/m, loaded by F = 1e-4 N at once: it oscillates between 0 and 2 F/k.
     auto p = springs<plane>(1, 1, 0, unit_density(2));
     p.time_step = 0.001;
     lacuna::simulation<plane> run(chain<2>(2), p);
@@ -159,7 +159,7 @@ TEST_CASE("the ledger of damped, sliding and breaking runs", "[energy]") {
         REQUIRE(e.kinetic + e.strain < 2e-3 * e.initial);
         REQUIRE_THAT(e.damping, WithinRel(0.5e-6, 5e-3));
     }
-    SECTION("a bond that breaks takes its strain energy along") {
+    SECTION("the strain energy of a bond that breaks is fracture energy") {
         double const limit = 1e-3;
         auto p = springs<plane>(1, 1, 0, unit_density(2), limit);
         p.time_step = 0.001;
@@ -171,7 +171,7 @@ TEST_CASE("the ledger of damped, sliding and breaking runs", "[energy]") {
             run.step_with_energy();
             events.insert(events.end(), run.events().begin(), run.events().end());
         }
-        // Kinetic energy 1e-6 J; F^2 / 2k = 0.5e-6 J of it are in the spring when it breaks.
+        // Of the kinetic energy of 1e-6 J, F^2 / 2k = 0.5e-6 J are in the spring when it breaks.
         REQUIRE(events.size() == 1);
         REQUIRE_THAT(events[0].energy, WithinRel(0.5e-6, 5e-3));
         REQUIRE_THAT(run.energy().fracture, WithinRel(0.5e-6, 5e-3));

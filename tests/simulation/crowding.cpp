@@ -6,7 +6,8 @@
 #include "simulation/setups.hpp"
 
 /// \file
-/// Discs that are far apart at first and crowd then: contact tables that start empty and have to make room on the way.
+/// Discs that are far apart at first and then crowd together: contact tables start empty and have to grow during the
+/// run.
 
 using namespace setups;
 
@@ -28,7 +29,7 @@ lacuna::simulation<plane> crowd(int threads = 1, bool keep_forces = true) {
     p.threads = threads;
     p.keep_pair_forces = keep_forces;
     lacuna::simulation<plane> run(packing, p);
-    // Towards the middle, the faster the further.
+    // Towards the centre, with a speed that grows with the distance.
     for (std::size_t k = 0; k < run.size(); ++k)
         run.set_velocity(k, (lacuna::vec<double, 2>{0.75 * (side - 1), 0.75 * (side - 1)} - run.position(k)) * 0.3);
     return run;
@@ -38,7 +39,7 @@ std::size_t packs(lacuna::simulation<plane> const& run) { return run.pairs().con
 
 } // namespace
 
-TEST_CASE("the force of every pair is its spring's after the table of contacts has made room", "[interactions]") {
+TEST_CASE("every pair has the force of its spring after the table of contacts has grown", "[interactions]") {
     auto run = crowd();
     auto const at_first = packs(run);
     REQUIRE(run.pairs().contacts().size() == 0);
@@ -56,7 +57,7 @@ TEST_CASE("the force of every pair is its spring's after the table of contacts h
             for (std::size_t b = a + 1; b < run.size(); ++b) {
                 auto const arm = x[b] - x[a];
                 double const overlap = run.radius(a) + run.radius(b) - norm(arm);
-                if (overlap < -0.2) continue; // no candidate, perhaps
+                if (overlap < -0.2) continue; // possibly no candidate
                 touching += overlap > 0;
                 double const normal = overlap > 0 ? -stiffness * overlap : 0;
                 REQUIRE_THAT(dot(run.pair_force(a, b), arm) / norm(arm), WithinAbs(normal, 1e-9));
@@ -67,7 +68,7 @@ TEST_CASE("the force of every pair is its spring's after the table of contacts h
     REQUIRE(touching > 500);
 }
 
-TEST_CASE("a resumed run has the same bits though its table of contacts is laid out in another way", "[checkpoint]") {
+TEST_CASE("a resumed run has the same bits although its table of contacts has another layout", "[checkpoint]") {
     auto whole = crowd();
     for (int n = 0; n < 300; ++n) whole.step();
     bool another_layout = false;
@@ -86,7 +87,7 @@ TEST_CASE("a resumed run has the same bits though its table of contacts is laid 
     REQUIRE(another_layout);
 }
 
-TEST_CASE("the same bits with any number of threads while the table of contacts makes room", "[determinism]") {
+TEST_CASE("the same bits with any number of threads while the table of contacts grows", "[determinism]") {
     auto const end = [](int threads, bool keep_forces) {
         auto run = crowd(threads, keep_forces);
         for (int n = 0; n < 300; ++n) run.step();

@@ -13,7 +13,8 @@ struct plane_in_single : lacuna::default_model<2, float> {};
 
 double noise(std::size_t k, int salt) { return std::sin(12.9898 * double(k) + 78.233 * salt); }
 
-/// A square sheet, of 24 x 24 discs if nothing else is asked for, of mixed radii, half of its pairs bonded, that is torn, sheared and thrown at a wall.
+/// A square sheet of 24 x 24 discs by default, of mixed radii, half of its pairs bonded. It is torn, sheared and thrown
+/// at a wall.
 template <class Real>
 lacuna::packing<Real, 2> sheet(int side = 24, bool tethers = false) {
     lacuna::packing<Real, 2> p;
@@ -32,7 +33,7 @@ struct outcome {
     std::vector<lacuna::vec<double, 2>> position, velocity;
     std::vector<double> spin;
     std::vector<lacuna::break_event<2>> events;
-    bool streams = false; ///< forces were forgotten as soon as they were summed up
+    bool streams = false; ///< whether forces were discarded once they were summed up
     int spans = 0;
 };
 
@@ -98,9 +99,9 @@ TEST_CASE("the same bits with any number of threads", "[determinism]") {
     check_threads<plane_in_single>({2});
 }
 
-TEST_CASE("the same bits whether pair forces are kept or not", "[determinism]") {
-    // Without a wall particles move as soon as their forces are summed up, with one the sums wait for it. The large sheet
-    // is cut into a span for each of two threads, with a frontier between.
+TEST_CASE("the same bits whether pair forces are stored or not", "[determinism]") {
+    // Without a wall particles move as soon as their forces are summed up; with a wall the sums wait for its forces.
+    // The large sheet is cut into one span for each of two threads.
     auto const itself = [](std::size_t k) { return k; };
     auto const [side, threads] = GENERATE(table<int, int>({{24, 1}, {80, 1}, {80, 2}}));
     bool const wall = GENERATE(false, true), tethers = GENERATE(false, true);
@@ -118,7 +119,7 @@ TEST_CASE("the same bits whether pair forces are kept or not", "[determinism]") 
     REQUIRE(std::equal(forgotten.events.begin(), forgotten.events.end(), kept.events.begin(), same));
 }
 
-TEST_CASE("the same bits whatever the order in which particles and bonds are given", "[determinism]") {
+TEST_CASE("the same bits for any order of particles and bonds in the input", "[determinism]") {
     auto const packing = sheet<double>();
     std::size_t const n = packing.size();
     auto const one = play<plane>(packing, 1, false, [](std::size_t k) { return k; });
@@ -142,8 +143,8 @@ TEST_CASE("the same bits whatever the order in which particles and bonds are giv
     }
 }
 
-TEST_CASE("a sheet that is a mirror image moves as a mirror image", "[determinism]") {
-    // Not in bits (sums come in another order), but to rounding as long as nothing bifurcates.
+TEST_CASE("a mirrored sheet has a mirrored motion", "[determinism]") {
+    // Not bit by bit, because sums have another order, but within rounding as long as nothing bifurcates.
     auto p = springs<plane>(1, 0.5, 0.3, unit_density(2));
     p.time_step = 0.05;
     auto const packing = lattice(7, 4, false);

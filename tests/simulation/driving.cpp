@@ -18,7 +18,7 @@ struct plane_combined : plane {
     using damping = lacuna::combined_damping;
 };
 
-/// Error of an oscillator's position after a time, in steps of time / count: x'' = 1 - x from rest.
+/// Error of the position of the oscillator x'' = 1 - x from rest after `time`, with steps of time / count.
 template <class Model>
 double oscillator_error(int count) {
     auto p = springs<Model>(1, 1, 0, 4 / pi);
@@ -35,12 +35,12 @@ double oscillator_error(int count) {
 } // namespace
 
 TEST_CASE("velocity Verlet starts on time: its positions are of second order", "[motion]") {
-    // Symplectic Euler takes the initial velocity for that of half a step before: first order.
+    // Symplectic Euler uses the initial velocity as that of half a step earlier: first order.
     for (auto const& [fine, coarse, order] :
          {std::tuple{oscillator_error<verlet>(400), oscillator_error<verlet>(100), 2.0},
           std::tuple{oscillator_error<plane>(400), oscillator_error<plane>(100), 1.0}})
         REQUIRE_THAT(std::log(coarse / fine) / std::log(4), WithinAbs(order, 0.05));
-    // A velocity given in between is also one at the time of the positions.
+    // A velocity given during the run also holds at the time of the positions.
     auto p = springs<verlet>(1, 1, 0, 4 / pi);
     p.time_step = 1e-3;
     lacuna::simulation<verlet> sim(chain<2>(2), p);
@@ -53,7 +53,7 @@ TEST_CASE("velocity Verlet starts on time: its positions are of second order", "
     REQUIRE_THAT((sim.position(1)[0] - 1) / 1e-3, WithinAbs(start * std::cos(0.7), 1e-6));
 }
 
-TEST_CASE("a prescribed velocity rises linearly and does its work", "[loads]") {
+TEST_CASE("a prescribed velocity rises linearly, and its work is in the ledger", "[loads]") {
     auto p = springs<plane>(1e4, 1e4, 0, 4 / pi);
     p.time_step = 1e-3;
     lacuna::simulation<plane> sim(chain<2>(2), p);
@@ -66,7 +66,7 @@ TEST_CASE("a prescribed velocity rises linearly and does its work", "[loads]") {
     double const way = 0.02 * 0.5 / 2 + 0.02 * 0.3;
     REQUIRE_THAT(sim.position(1)[0] - 1, WithinRel(way, 1e-9));
     REQUIRE_THAT(sim.velocity(1)[0], WithinRel(0.02, 1e-12));
-    double const stretched = way - 0.02 * p.time_step; // energies are those of the last forces
+    double const stretched = way - 0.02 * p.time_step; // energies belong to the last forces
     REQUIRE_THAT(sim.energy().strain, WithinRel(0.5 * 1e4 * stretched * stretched, 1e-6));
     REQUIRE_THAT(sim.energy().residual(), WithinAbs(0, 1e-9 * sim.energy().largest()));
 }
@@ -94,7 +94,7 @@ TEST_CASE("mass-proportional damping slows free motion exponentially, and counts
     REQUIRE_THAT(one.limits().rigorous, WithinRel(4 / (5 + std::sqrt(25 + 4.0)), 1e-12));
 }
 
-TEST_CASE("a torque spins a sphere up, with its work", "[loads]") {
+TEST_CASE("a torque accelerates the spin of a sphere, and its work is in the ledger", "[loads]") {
     auto p = springs<setups::space>(1e4, 1e4, 0, unit_density(3));
     p.time_step = 1e-3;
     lacuna::packing<double, 3> one;
@@ -131,7 +131,7 @@ TEST_CASE("the step follows the critical one when bonds break", "[limits]") {
     double const second = sim.time_step();
     sim.run(10);
     REQUIRE_THAT(sim.time(), WithinRel(time + 11 * second, 1e-9));
-    // The particle that is moved at a constant speed has gone that far.
+    // The particle with the prescribed speed has moved by speed times time.
     REQUIRE_THAT(sim.position(3)[0] - 3, WithinRel(1e-2 * sim.time(), 1e-9));
 }
 
@@ -150,8 +150,8 @@ TEST_CASE("particles without contacts pass through each other", "[interactions]"
 }
 
 TEST_CASE("a rigid plate moves its particles as one, under the sum of their forces", "[loads]") {
-    // Springs of 1 and 3 N/m to fixed discs, masses of 1 and 4 kg, and a load on one of them: one oscillator of 4 N/m and
-    // 5 kg about F / 4.
+    // Springs of 1 and 3 N/m to fixed discs, masses of 1 and 4 kg, and a load on one of them: one oscillator of 4 N/m
+    // and 5 kg about F / 4.
     lacuna::packing<double, 2> discs;
     discs.add({0, 0}, 0.5);
     discs.add({1, 0}, 0.5);
@@ -176,12 +176,12 @@ TEST_CASE("a rigid plate moves its particles as one, under the sum of their forc
         REQUIRE_THAT(sim.position(3)[0] - 2, WithinAbs(sim.position(1)[0] - 1, 1e-13));
         REQUIRE_THAT(sim.velocity(3)[0], WithinAbs(sim.velocity(1)[0], 1e-16));
     }
-    // Euler's first step is half a step early: v dt / 2, at most 1e-3 / 4 * 0.9 * 5e-4.
+    // The first velocity of Euler's scheme is half a step early: v dt / 2, at most 1e-3 / 4 * 0.9 * 5e-4.
     REQUIRE(worst < 1.2e-7);
     REQUIRE(sim.position(3)[1] == 5);
-    REQUIRE(std::fabs(sim.position(1)[1]) > 1e-5); // across the plate it is free
+    REQUIRE(std::fabs(sim.position(1)[1]) > 1e-5); // it is free along the plate
     REQUIRE_THAT(sim.energy().residual(), WithinAbs(0, 1e-9 * sim.energy().largest()));
-    // What holds one particle holds the plate.
+    // Fixing one particle fixes the plate.
     lacuna::simulation<plane> held(discs, p);
     held.fix(0);
     held.fix(3);

@@ -28,7 +28,7 @@ struct wet_implicit : setups::plane {
     using damping = viscous_damping;
 };
 
-/// A triangular sheet on a fixed base, drained at its top, pressed from there.
+/// A triangular sheet on a fixed base, drained and loaded at its top.
 template <class Model>
 simulation<Model> sheet(typename Model::flow::parameters const& flow, double time_step, double load = 200) {
     auto const discs = setups::lattice(8, 7, true);
@@ -101,7 +101,7 @@ TEST_CASE("flow steps within a step, explicit and implicit, agree") {
     REQUIRE_THAT(mean_pressure(third), WithinRel(mean_pressure(one), 0.02));
 }
 
-TEST_CASE("mass is kept to rounding with flow in one of n steps and in n steps of one") {
+TEST_CASE("mass is conserved to rounding with flow in one of n steps, and with n flow steps in one step") {
     auto p = fluid<wet>(1e-5);
     p.interval = GENERATE(1, 5);
     p.substeps = GENERATE(1, 3);
@@ -122,11 +122,11 @@ TEST_CASE("mass is kept to rounding with flow in one of n steps and in n steps o
             }
             double const left = content - (net.sources[0].volume - before.sources[0].volume);
             INFO(s << ": " << left << " m^3");
-            // Pressures that hardly change carry the rounding of themselves.
+            // Pressures that hardly change have their own rounding error.
             REQUIRE(std::fabs(left) <= 1e-12 * sim.flow().ledger().gross_volume + 1e-15 * stored);
         }
         bool const flowed = net.sources[0].volume != before.sources[0].volume;
-        // A step until something has moved, one until the pressure has risen.
+        // One step until something has moved, another until the pressure has risen.
         if (s > 1) REQUIRE(flowed == ((s + 1) % p.interval == 0));
     }
     REQUIRE_THAT(missing, WithinAbs(0, 1e-13 * gross));
@@ -134,7 +134,7 @@ TEST_CASE("mass is kept to rounding with flow in one of n steps and in n steps o
     REQUIRE(sim.flow().network().sources[0].volume < 0);
 }
 
-TEST_CASE("the energy of a vibrating wet sheet adds up, however seldom fluid flows") {
+TEST_CASE("the energy of a vibrating wet sheet adds up for any interval of the flow") {
     int const interval = GENERATE(1, 10);
     double const conductance = GENERATE(0.0, 2e-6);
     auto p = fluid<wet_undamped>(conductance);
@@ -148,7 +148,7 @@ TEST_CASE("the energy of a vibrating wet sheet adds up, however seldom fluid flo
     auto const& e = sim.energy();
     INFO("residual " << e.residual() << ", most " << most << ", of " << e.largest() << " J");
     REQUIRE(e.fluid_storage > 0);
-    // No drift: the integrator's own swing, of second order in the step, is all.
+    // No drift: only the integrator's oscillation, of second order in the step, remains.
     REQUIRE_THAT(most, WithinAbs(0, 5e-3 * e.largest()));
     if (conductance > 0) REQUIRE(e.fluid_viscous > 0);
 }

@@ -18,7 +18,7 @@ lacuna::simulation_parameters<plane> unit_springs(double tensile = never, double
 } // namespace
 
 TEST_CASE("a chain pulled slowly breaks at N F_c / k", "[fracture]") {
-    // Everything a thousandth of the set-up's size, so that the strain stays small.
+    // Limit and speed are a thousandth of those of the set-up, so that the strain stays small.
     double const small = 1e-3, speed = 1e-4 * small;
     auto p = unit_springs(small);
     p.time_step = 0.5;
@@ -81,7 +81,7 @@ TEST_CASE("a bond sheared without rotation breaks at sigma_s A_c / k_s", "[fract
     run.fix(0);
     run.fix(1, {.x = true, .y = true, .rotation = rotations_locked});
     run.set_velocity(1, {0, speed});
-    // A free disc rolls along instead: its shear force swings with amplitude v sqrt(k_s I) / lever, 0.7 v here.
+    // A free disc rolls instead: its shear force oscillates with amplitude v sqrt(k_s I) / lever, 0.7 v here.
     if (!rotations_locked) run.set_velocity(1, {0, speed / 2});
     std::vector<lacuna::break_event<2>> events;
     for (int n = 0; n < 5000; ++n) {
@@ -146,7 +146,7 @@ TEST_CASE("a cycle of friction dissipates 4 mu N (u0 - mu N / k_s)", "[fracture]
     double const load = 100, mu = 0.3, ks = 1e4, u0 = 0.01;
     bool const two_discs = GENERATE(true, false);
     auto p = springs<plane>(1e4, ks, mu, 1e-3);
-    // A quarter of a cycle in 2500 steps. Large discs: the path bends the normal by u0^2 / 4R only.
+    // A quarter of a cycle takes 2500 steps. On large discs the path changes the distance by u0^2 / 4R only.
     double const radius = 50, overlap = load / 1e4, dt = 1e-3, speed = u0 / (2500 * dt);
     p.time_step = dt;
     lacuna::packing<double, 2> packing;

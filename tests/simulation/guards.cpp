@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Guards tell a step that is too long from physics that grows by itself.
+// Guards distinguish a time step that is too long from physical growth.
 
 #include <cmath>
 #include <string>
@@ -12,7 +12,7 @@ using namespace setups;
 
 namespace {
 
-/// What a run says when it is stopped; "" when it is not.
+/// Message of a run that a guard stops; "" if none does.
 template <class Model>
 std::string said(lacuna::simulation<Model>& run, int steps) {
     try {
@@ -23,7 +23,7 @@ std::string said(lacuna::simulation<Model>& run, int steps) {
     return "";
 }
 
-/// Five discs that overlap by a tenth, the outer ones held, the inner ones a little beside the line.
+/// Five discs that overlap by a tenth. The outer ones are fixed, the inner ones lie slightly off the line.
 lacuna::simulation<plane> squeezed_row(lacuna::simulation_parameters<plane> p) {
     lacuna::packing<double, 2> row;
     for (int k = 0; k < 5; ++k) row.add({0.9 * k, k == 0 || k == 4 ? 0.0 : k % 2 == 1 ? 1e-8 : -1e-8}, 0.5);
@@ -35,8 +35,8 @@ lacuna::simulation<plane> squeezed_row(lacuna::simulation_parameters<plane> p) {
 
 } // namespace
 
-TEST_CASE("a row of discs that is squeezed buckles at its rate", "[guards]") {
-    // Three discs between two that are held: m y_j'' = P / d (2 y_j - y_{j-1} - y_{j+1}), P = k (2 r - d). The fastest
+TEST_CASE("a squeezed row of discs buckles at its growth rate", "[guards]") {
+    // Three discs between two fixed ones: m y_j'' = P / d (2 y_j - y_{j-1} - y_{j+1}), P = k (2 r - d). The fastest
     // mode is (1, -sqrt 2, 1), with g^2 = (2 + sqrt 2) P / (m d): 21.97 / s.
     double const force = 1e6 * 0.1, mass = 1000 * pi * 0.25, rate = std::sqrt((2 + std::sqrt(2.0)) * force / (mass * 0.9));
     REQUIRE_THAT(rate, WithinRel(21.97, 1e-3));
@@ -58,7 +58,7 @@ TEST_CASE("a row of discs that is squeezed buckles at its rate", "[guards]") {
 }
 
 TEST_CASE("an energy that is not a number ends a run", "[guards]") {
-    // In single precision one over 1e-40 is infinite, and with it the energy of the bond's spring, which has no force.
+    // In single precision 1 / 1e-40 is infinite. So is the energy of the bond's spring, although it has no force.
     using single = lacuna::default_model<2, float>;
     lacuna::packing<float, 2> row;
     for (int k = 0; k < 3; ++k) row.add({float(k), 0}, 0.5f);
@@ -73,7 +73,7 @@ TEST_CASE("an energy that is not a number ends a run", "[guards]") {
 }
 
 TEST_CASE("a bound of zero is no time step", "[guards]") {
-    // The square of the dashpot's rate is infinite, the bound zero: all would stand still for ever.
+    // The square of the dashpot's rate is infinite and the bound is zero: time would not advance.
     auto p = springs<plane_viscous>(1e6, 0);
     p.damping.ratio = 1e200;
     lacuna::simulation<plane_viscous> run(chain<2>(2), p);
@@ -96,7 +96,7 @@ TEST_CASE("a shallow truss of two bars snaps through beyond its limit load, not 
         lacuna::simulation<plane> run(truss, p);
         run.fix(0);
         run.fix(2);
-        run.apply(1, {0, -share * limit}, 0, 1000); // much longer than a swing
+        run.apply(1, {0, -share * limit}, 0, 1000); // much longer than a period
         bool below = false;
         for (int n = 0; run.time() < 1500; ++n) {
             run.step_with_energy();
@@ -107,7 +107,7 @@ TEST_CASE("a shallow truss of two bars snaps through beyond its limit load, not 
     }
 }
 
-TEST_CASE("a chain that falls and whips runs", "[guards]") {
+TEST_CASE("a chain that falls and whips is not stopped", "[guards]") {
     auto p = springs<plane>(1e5, 0, 0, unit_density(2));
     p.gravity = {0, -10};
     lacuna::simulation<plane> run(chain<2>(12), p);
@@ -117,13 +117,15 @@ TEST_CASE("a chain that falls and whips runs", "[guards]") {
         run.step_with_energy();
         fastest = std::max(fastest, norm(run.velocity(11)));
     }
-    // Faster than anything that falls by the length of the chain.
+    // Faster than a free fall by the length of the chain.
     CHECK(fastest > std::sqrt(2 * 10 * 22.0));
     CHECK(std::fabs(run.energy().residual()) < 1e-2 * run.energy().largest());
 }
 
-TEST_CASE("a step that is too long for what a program does is caught within 100 steps, by the speeds alone", "[guards]") {
-    // The program pulls a disc back with a spring of 1 N/m that the bound of the step does not know: 2 s sqrt(m / k) is stable.
+TEST_CASE("a step that is too long for a force of the program is caught within 100 steps, by the speeds alone",
+          "[guards]") {
+    // The program pulls a disc back with a spring of 1 N/m that the bound does not include: 2 s = 2 sqrt(m / k) is
+    // stable.
     for (double const share : {1.005, 1.05, 1.2}) {
         auto p = springs<plane>(1, 0, 0, unit_density(2));
         p.time_step = 2 * share;
@@ -153,8 +155,9 @@ TEST_CASE("a step that is too long for what a program does is caught within 100 
     }
 }
 
-TEST_CASE("a step that a freed support makes too long is stopped by the bound", "[guards]") {
-    // Where a neighbour is held, a pair swings at sqrt(k / m), and 2 s is stable; set free, at sqrt(2 k / m).
+TEST_CASE("the bound stops a run whose step is too long after a support was released", "[guards]") {
+    // If one particle of a pair is fixed, it oscillates at sqrt(k / m), and 2 s is stable; if both are free,
+    // at sqrt(2 k / m).
     for (double const share : {1.005, 1.05, 1.2}) {
         auto p = springs<plane>(1, 0, 0, unit_density(2));
         p.time_step = share * std::sqrt(2.0);
@@ -169,7 +172,8 @@ TEST_CASE("a step that a freed support makes too long is stopped by the bound", 
 }
 
 TEST_CASE("spins that run away are caught within 100 steps", "[guards]") {
-    // A sphere or disc that is held in place, and turned back by a spring of I N m/rad (m r^2 / 2, 2/5 m r^2) that the bound does not know: 2 s.
+    // A sphere or disc at a fixed position, turned back by a spring of I N m/rad (m r^2 / 2, 2/5 m r^2) that the bound
+    // does not include: 2 s is stable.
     auto const play = [](auto model, double share, double spin) {
         using type = decltype(model);
         constexpr int dim = type::dim;
@@ -196,12 +200,12 @@ TEST_CASE("spins that run away are caught within 100 steps", "[guards]") {
         CHECK_THAT(text(plane{}, share, 1e-10), contains_text("grow fourfold") && contains_text("turn round"));
         CHECK_THAT(text(space{}, share, 1e-10), contains_text("grow fourfold") && contains_text("turn round"));
     }
-    // Where they grow too fast to be watched for long.
+    // Spins that grow too fast for the growth watch.
     CHECK_THAT(text(plane{}, 1.2, 1e-6), contains_text("rad in one step (limit 1)") && contains_text("above the stable one"));
     CHECK_THAT(text(space{}, 1.2, 1e-6), contains_text("rad in one step (limit 1)") && contains_text("above the stable one"));
 }
 
-TEST_CASE("who allows an unstable step is stopped by what it comes to only", "[guards]") {
+TEST_CASE("with allow_unstable_step only the consequences of an unstable step end a run", "[guards]") {
     auto p = springs<plane>(1, 0, 0, unit_density(2));
     p.allow_unstable_step = true;
     p.time_step = 1.002 * std::sqrt(2.0);
@@ -220,7 +224,7 @@ TEST_CASE("who allows an unstable step is stopped by what it comes to only", "[g
     REQUIRE(run.kinetic_energy() > 1);
 }
 
-TEST_CASE("guards that cannot be are refused", "[guards]") {
+TEST_CASE("invalid limits of guards are refused", "[guards]") {
     auto p = springs<plane>(1, 0);
     for (double const bad : {0.0, -1.0, std::nan("")}) {
         p.guards.overlap_limit = bad;
@@ -232,7 +236,7 @@ TEST_CASE("guards that cannot be are refused", "[guards]") {
     }
 }
 
-TEST_CASE("overlaps are named, with a bond that gives way", "[guards]") {
+TEST_CASE("messages name the overlapping particles and a bond that yields", "[guards]") {
     auto p = springs<plane>(1e6, 5e5, 0.5, 1000, 1e4, 1e4);
     auto const squeeze = [](auto const& parameters) {
         lacuna::simulation<plane> run(chain<2>(2), parameters);
@@ -255,17 +259,17 @@ TEST_CASE("overlaps are named, with a bond that gives way", "[guards]") {
         REQUIRE_THAT(squeeze(p), contains_text("bond 0 between them is crushed") && contains_text("10000 N") &&
                                      contains_text("gives way without end"));
     }
-    SECTION("not where it is switched off, or where the limit is further away") {
+    SECTION("not if the guard is off or the limit is larger") {
         p.guards.overlap = false;
         REQUIRE(squeeze(p).find("overlap") == std::string::npos);
         auto soon = p;
-        soon.guards.motion_limit = 0.005; // while the bond gives way
+        soon.guards.motion_limit = 0.005; // while the bond yields
         REQUIRE_THAT(squeeze(soon), contains_text("bond 0 between particles 0 and 1 is crushed"));
         p.guards.overlap = true;
         p.guards.overlap_limit = 1.5;
         REQUIRE_THAT(squeeze(p), contains_text("more than 1.5 of a radius") && contains_text("bond 0"));
     }
-    SECTION("a contact that is overcome") {
+    SECTION("a contact under too large a load") {
         auto q = springs<plane>(1e6, 0);
         lacuna::simulation<plane> run(chain<2>(2, false), q);
         run.fix(0);
@@ -273,7 +277,7 @@ TEST_CASE("overlaps are named, with a bond that gives way", "[guards]") {
         REQUIRE_THAT(said(run, 3000), contains_text("it overlaps another particle by more than a radius: particle") &&
                                           contains_text("of the smaller radius") && contains_text("contact stiffness"));
     }
-    SECTION("bonds that were made deep are let be") {
+    SECTION("bonds that overlapped at the start are allowed") {
         lacuna::packing<double, 2> two;
         two.add({0, 0}, 0.5);
         two.add({0.3, 0}, 0.5);
@@ -284,7 +288,7 @@ TEST_CASE("overlaps are named, with a bond that gives way", "[guards]") {
     }
 }
 
-TEST_CASE("a fast particle: what made it fast", "[guards]") {
+TEST_CASE("messages name the reason why a particle is fast", "[guards]") {
     auto p = springs<plane>(1, 0, 0, unit_density(2));
     p.time_step = 0.1;
     lacuna::simulation<plane> given(chain<2>(3, false), p);

@@ -26,7 +26,7 @@ lacuna::simulation_parameters<Model> glass(double friction = 0, double poisson =
 
 } // namespace
 
-TEST_CASE("two spheres collide as Hertz says", "[hertz]") {
+TEST_CASE("two spheres collide as in Hertz's theory", "[hertz]") {
     using model = spheres<3>;
     auto const p = glass<model>();
     lacuna::packing<double, 3> two;
@@ -61,7 +61,7 @@ TEST_CASE("two spheres collide as Hertz says", "[hertz]") {
     REQUIRE_THAT(fine.velocity(1)[0], WithinRel(2 * m1 / (m1 + m2) * speed, 1e-4));
 }
 
-TEST_CASE("dashpots give Hertzian collisions the restitution that is set", "[hertz]") {
+TEST_CASE("dashpots give Hertzian collisions the given restitution", "[hertz]") {
     using model = spheres<3, lacuna::restitution_damping>;
     for (double const e : {0.2, 0.4, 0.6, 0.8, 0.95, 1.0})
         for (double const speed : {0.05, 2.0}) {
@@ -114,7 +114,7 @@ TEST_CASE("Mindlin's stiffness, Coulomb's limit, and no energy from nothing", "[
     motion.slip = {1e-2};
     auto const slid = law::evaluate(p, motion, r.history);
     REQUIRE_THAT(slid.shear_force[0], WithinRel(mu * -slid.normal_force, 1e-12));
-    // Loads the tangent at a deep contact, unloads it at a shallow one: the balance of work and energy closes.
+    // Loads in shear at a deep contact and unloads at a shallow one: work and energy balance.
     double work = 0, dissipated = 0;
     auto state = law::initial<double, 2>(0.2, 0.2);
     double last = 0;
@@ -136,7 +136,7 @@ TEST_CASE("Mindlin's stiffness, Coulomb's limit, and no energy from nothing", "[
     double const elastic = 0.4 * (0.2 - motion.distance) * -now.normal_force;
     REQUIRE(dissipated > 0);
     REQUIRE_THAT(work - dissipated, WithinAbs(now.stored_energy - elastic, 1e-12));
-    // The tangent of the shear force by dual numbers is the same stiffness.
+    // The derivative of the shear force by dual numbers is the same stiffness.
     auto const k = lacuna::law_stiffness<law, 2>(p, 0.2 - overlap, 0.1, 0.1, false);
     REQUIRE_THAT(k.normal, WithinRel(2 * plane_modulus * a, 1e-9));
     REQUIRE_THAT(k.shear, WithinRel(8 * shear_modulus * a, 1e-9));
@@ -145,7 +145,7 @@ TEST_CASE("Mindlin's stiffness, Coulomb's limit, and no energy from nothing", "[
 TEST_CASE("a bond that fails in shear under compression leaves a Hertzian contact with its forces", "[hertz]") {
     using law = lacuna::hertz_mindlin;
     auto const p = law::combine({1e6, 0.3, 10, 1}, {1e6, 0.3, 10, 1}, 1);
-    // Pressed by as much as the overlap says, and by more and less; a pair that stands apart, too.
+    // Normal forces equal to, above and below that of the overlap; and a pair with a gap.
     for (double const distance : {0.199, 0.2, 0.201})
         for (double const force : {-1e-3, -0.5, -7.0}) {
             lacuna::pair_motion<double, 2> const still{distance, 0.1, 0.1, {0}, 0};
@@ -153,7 +153,7 @@ TEST_CASE("a bond that fails in shear under compression leaves a Hertzian contac
             REQUIRE_THAT(kept.normal_force, WithinRel(force, 1e-9));
             REQUIRE_THAT(kept.shear_force[0], WithinRel(0.2 * force, 1e-9));
         }
-    // Without compression there is nothing to rub against.
+    // Without compression there is no friction.
     lacuna::pair_motion<double, 2> const apart{0.201, 0.1, 0.1, {0}, 0};
     auto const loose = law::evaluate(p, apart, law::hand_over(p, apart, 3.0, {0.2}));
     REQUIRE(loose.normal_force == 0);
@@ -169,7 +169,7 @@ TEST_CASE("Hertzian materials are refused by field, value and rule", "[hertz][re
                             contains_text("m.young_modulus = " + lacuna::to_text(young) + ": must be"));
 }
 
-TEST_CASE("a sphere hits a wall as Hertz says", "[hertz]") {
+TEST_CASE("a sphere hits a wall as in Hertz's theory", "[hertz]") {
     using model = spheres<2>;
     auto p = glass<model>();
     p.walls = {{{0, 0}, {0, 1}, p.materials[0].contact}};

@@ -35,7 +35,7 @@ lacuna::simulation_parameters<Model> beam(double kn, double ks, double tensile =
 
 } // namespace
 
-TEST_CASE("a tip-loaded beam of parallel bonds bends as 4d says", "[moment]") {
+TEST_CASE("a tip-loaded beam of parallel bonds bends as in reference 4d", "[moment]") {
     for (int const count : {5, 10}) {
         lacuna::simulation_parameters<damped_beams> p = beam<damped_beams>(1, 1);
         p.bonds.assign(std::size_t(count), {.bending_stiffness = 0.3});
@@ -56,7 +56,7 @@ TEST_CASE("a tip-loaded beam of parallel bonds bends as 4d says", "[moment]") {
 
 namespace {
 
-/// Particles of radii that alternate between 0.5 and `other`, each touching the next, bonded, along x.
+/// Particles along x with alternating radii of 0.5 and `other`; neighbours touch and are bonded.
 template <int Dim>
 lacuna::packing<double, Dim> uneven_chain(int count, double other) {
     lacuna::packing<double, Dim> p;
@@ -69,7 +69,7 @@ lacuna::packing<double, Dim> uneven_chain(int count, double other) {
     return p;
 }
 
-/// Deflection and turn of the tip of a cantilever of `count` beams under a force across it, over the force.
+/// Deflection and rotation of the tip of a cantilever of `count` beams under a transverse force, over the force.
 template <int Dim>
 std::array<double, 2> tip_of_cantilever(lacuna::packing<double, Dim> const& discs, lacuna::beam_bond::material const& bond,
                                         double drag, long long steps) {
@@ -97,7 +97,7 @@ std::array<double, 2> tip_of_cantilever(lacuna::packing<double, Dim> const& disc
 
 } // namespace
 
-TEST_CASE("a tip-loaded beam of elastic beams bends as 4d says", "[moment]") {
+TEST_CASE("a tip-loaded beam of elastic beams bends as in reference 4d", "[moment]") {
     // Its springs, k_n = k_s = 1 and 0.3 against bending, as a section and moduli: k_theta / k_n = R^2 / 3, and
     // 12 k_theta / (1 + phi) = k_s, phi = 12 k_theta / (kappa G A).
     double const R = std::sqrt(0.9), young = 1 / (2 * R), kappa = 3.6 / 2.6 / (young / 2 * 2 * R);
@@ -111,7 +111,8 @@ TEST_CASE("a tip-loaded beam of elastic beams bends as 4d says", "[moment]") {
 }
 
 TEST_CASE("a cantilever of any number of elastic beams has the beam's deflection", "[moment]") {
-    // F L^3 / (3 E I) + F L / (kappa G A), and a turn of F L^2 / (2 E I): exact for one beam, five, and with unequal radii.
+    // F L^3 / (3 E I) + F L / (kappa G A), and a rotation of F L^2 / (2 E I): exact for one beam, for five, and for
+    // unequal radii.
     double const young = 3, nu = 0.2, shear = young / 2.4;
     for (double const kappa : {never, 0.8})
         for (int const count : {1, 5}) {
@@ -145,21 +146,21 @@ TEST_CASE("elastic beams of unequal radii are stable up to the bound of the step
     CHECK(most < 3 * start);
 }
 
-TEST_CASE("the stiffness against bending is that of 4e", "[moment]") {
+TEST_CASE("the bending stiffness is that of reference 4e", "[moment]") {
     // kbar_n of 1 N/m^3: k_n = kbar_n A
     double const area = 2 * 0.5 * 1.0;
     auto const p = lacuna::parallel_bond::combine({area, area}, {area, area}, 1.0);
     REQUIRE_THAT(lacuna::parallel_bond::rotational_stiffness<2>(p, 0.5, 0.7).bending,
                  WithinRel(reference("4e.parallel_bond_2D", "k_theta/(kn_bar_per_area)"), 1e-12));
     REQUIRE_THAT(p.normal_stiffness, WithinRel(area * reference("4e.parallel_bond_2D", "kn/(kn_bar)"), 1e-12));
-    // In space pi R^4 / 4 and pi R^4 / 2, with k = pi R^2.
+    // In 3D pi R^4 / 4 and pi R^4 / 2, with k = pi R^2.
     double const round = pi * 0.25;
     auto const q = lacuna::parallel_bond::combine({round, round}, {round, round}, 1.0);
     REQUIRE_THAT(lacuna::parallel_bond::rotational_stiffness<3>(q, 0.5, 0.7).bending, WithinRel(pi * 0.0625 / 4, 1e-12));
     REQUIRE_THAT(lacuna::parallel_bond::rotational_stiffness<3>(q, 0.5, 0.7).twisting, WithinRel(pi * 0.0625 / 2, 1e-12));
 }
 
-TEST_CASE("a parallel bond breaks where the stress at its rim says", "[moment]") {
+TEST_CASE("a parallel bond breaks when the stress at its rim reaches the strength", "[moment]") {
     using law = lacuna::parallel_bond;
     double const strength = 3, radius = 0.5, thickness = 2;
     auto const p = law::combine({1e3, 1e3, strength, strength}, {1e3, 1e3, strength, strength}, thickness);
@@ -178,7 +179,7 @@ TEST_CASE("a parallel bond breaks where the stress at its rim says", "[moment]")
             REQUIRE((!r.broken || r.broken_in_tension));
         }
     }
-    // In space a twist adds to the shear stress: F/A + M R/J.
+    // In 3D a twist adds to the shear stress: F/A + M R/J.
     auto const q = law::combine({1e3, 1e3, never, strength}, {1e3, 1e3, never, strength}, 1);
     lacuna::pair_motion<double, 3> ball{1, radius, radius, {}, 0};
     double const twist_limit = strength * pi * radius * radius * radius / 2;
@@ -200,7 +201,7 @@ TEMPLATE_TEST_CASE_SIG("free beams conserve momenta and energy", "[moment]", ((i
         p.materials[0].bond = {1e4, 0.3, never, never, 1, 0.8};
     p.safety = 0.1;
     auto discs = chain<Dim>(4);
-    discs.position[2][1] += 0.3; // bent, and of unequal radii
+    discs.position[2][1] += 0.3; // bent, with unequal radii
     discs.radius[1] = 0.4;
     lacuna::simulation<beams<Dim, Bond>> sim(discs, p);
     lacuna::vec<double, Dim> v{};
@@ -221,15 +222,15 @@ TEMPLATE_TEST_CASE_SIG("free beams conserve momenta and energy", "[moment]", ((i
     }
     for (int axis = 0; axis < Dim; ++axis)
         REQUIRE_THAT(momentum(sim)[axis] - momentum_before[axis], WithinAbs(0, 1e-10));
-    // Velocities stand half a step before positions: what is conserved is x_n cross v_(n+1/2) up to that.
+    // Velocities hold half a step before positions: x_n cross v_(n+1/2) is conserved up to that shift.
     for (int axis = 0; axis < lacuna::rotation_dim<Dim>; ++axis)
         REQUIRE_THAT(angular_momentum(sim)[axis] - angular_before[axis], WithinAbs(0, 1e-9));
     REQUIRE(largest > 0.5);
-    // Large turns of the bonds make the ledger as good as the step is short, not to rounding.
+    // With large rotations of the bonds the error of the ledger depends on the step, and is above rounding.
     REQUIRE(worst < 5e-3 * largest);
 }
 
-TEST_CASE("a rigid turn loads no beam", "[moment]") {
+TEST_CASE("a rigid rotation loads no beam", "[moment]") {
     auto p = beam<beams<3>>(1e4, 1e4);
     lacuna::simulation<beams<3>> sim(chain<3>(3), p);
     lacuna::vec<double, 3> const spin{0, 0.3, 1}; // across the chain: a steady motion
@@ -239,13 +240,13 @@ TEST_CASE("a rigid turn loads no beam", "[moment]") {
         sim.fix(k, {});
     }
     for (int k = 0; k < 2000; ++k) sim.step_with_energy();
-    // What is left is the stretch that the centripetal force needs.
+    // Only the stretch for the centripetal force remains.
     double const stretch_energy = 2 * 0.5 * std::pow(1.09, 2) / 1e4;
-    REQUIRE(sim.energy().strain < 4.5 * stretch_energy); // started at once, it overshoots by two
+    REQUIRE(sim.energy().strain < 4.5 * stretch_energy); // a sudden start overshoots by a factor of two
     REQUIRE(squared_norm(sim.spin(0) - spin) < 1e-4);
 }
 
-TEST_CASE("single bonds have values of their own", "[bond values]") {
+TEST_CASE("bonds with individual values", "[bond values]") {
     // A chain pulled at its end: the bond with the smallest force breaks, stretched by force / stiffness.
     for (bool const with_moments : {false, true}) {
         auto const pull = [&](auto model) {
@@ -308,7 +309,7 @@ TEST_CASE("the paper's bond with a moment", "[moment]") {
             REQUIRE((!r.broken || r.broken_in_tension));
         }
     }
-    // Crushed at -sigma A, 6 N, where a parallel bond would go on: of 10 N the rest becomes a shorter bond.
+    // Yields at -sigma A = -6 N, unlike a parallel bond: the rest of the 10 N shortens the bond permanently.
     auto const crushed = law::evaluate(p, still, law::initial<double, 2>(1 + 10 / 1e3, 1));
     REQUIRE_THAT(crushed.normal_force, WithinRel(-6.0, 1e-12));
     REQUIRE_THAT(crushed.history.rest_distance, WithinRel(1 + 6 / 1e3, 1e-12));
@@ -320,7 +321,7 @@ TEST_CASE("the paper's bond with a moment", "[moment]") {
         REQUIRE(r.broken == (over > 1));
         REQUIRE_FALSE(r.broken_in_tension);
     }
-    // A stiffness and a strength of its own.
+    // Individual stiffness and strength.
     auto const own = law::with_values<2>(p, {.normal_stiffness = 500, .bending_stiffness = 7, .tensile_force = 1}, 0.5, 0.7);
     REQUIRE_THAT(law::rotational_stiffness<2>(own, 0.5, 0.7).bending, WithinRel(7.0, 1e-12));
     REQUIRE(own.spring.normal_stiffness == 500);

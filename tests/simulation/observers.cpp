@@ -38,7 +38,7 @@ struct energy_watch {
     void on_step(run_type const& s) { kinetic = s.energy().kinetic; }
 };
 
-/// Wants the ledger in all steps but two.
+/// Needs the ledger in all steps but two.
 struct sampler {
     static constexpr lacuna::stage stages = lacuna::stage::step;
     std::vector<double> fracture{};
@@ -76,7 +76,7 @@ TEST_CASE("an observer stops a run, after all have seen the step", "[observer]")
     REQUIRE(run.run(100, d, c) == 2);
     REQUIRE(c.steps == 2);
     REQUIRE(d.text == "start0 step1 step2 end2 ");
-    REQUIRE(run.run(1, c, d) == 1); // it goes on where it was
+    REQUIRE(run.run(1, c, d) == 1); // it continues from its last step
     REQUIRE(run.steps() == 3);
 }
 
@@ -95,15 +95,15 @@ TEST_CASE("an observer gets energies in the steps that it names", "[observer]") 
     auto run = pulled();
     sampler part;
     run.run(9, part);
-    // In the step with number 3 the bond's 0.012^2 / 2 J are lost, less the work 0.012 * 0.004 / 2 that its missing force
-    // would have done: a step works with the mean of the forces before and after it, and the one after it is zero.
+    // In step number 3 the bond loses 0.012^2 / 2 J, less the work 0.012 * 0.004 / 2 that its missing force would have
+    // done: a step uses the mean of the forces before and after it, and the force after it is zero.
     double const loss = 0.5 * 0.012 * 0.012 - 0.5 * 0.012 * 0.004;
     std::vector<double> const lost{0, 0, 0, loss, loss, loss, loss, 0, 0};
     REQUIRE(part.fracture.size() == lost.size());
     for (std::size_t k = 0; k < lost.size(); ++k) REQUIRE_THAT(part.fracture[k], WithinAbs(lost[k], 1e-12));
     REQUIRE_THAT(run.energy().initial, WithinRel(0.5 * 0.04 * 0.04, 1e-12));
 
-    // Another observer that wants them always gets them always.
+    // Another observer that needs energies in every step gets them in every step.
     auto both = pulled();
     sampler again;
     energy_watch always;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One long bond, one huge particle, one fast particle among many: what the others do, and what it costs, stays as without it.
+// One long bond, one huge particle or one fast particle among many: it changes
+// neither the motion of the others nor the cost.
 
 #include <cstdio>
 #include <string>
@@ -34,23 +35,23 @@ std::size_t candidates(lacuna::packing<typename Model::real, Model::dim> const& 
 
 } // namespace
 
-TEMPLATE_TEST_CASE("a long bond makes nobody's search wider", "[outliers]", plane, single_plane) {
+TEMPLATE_TEST_CASE("a long bond does not widen the search for contacts", "[outliers]", plane, single_plane) {
     using real = typename TestType::real;
     int const side = 30;
     auto body = square<real>(side);
     auto p = springs<TestType>(1e6, 5e5, 0.2, 2500);
-    // Only those beside and above each other have a gap below a tenth of the radius: (side - 1) * side of each.
+    // Only neighbours in a row or column have a gap below a tenth of the radius: (side - 1) * side pairs of each kind.
     std::size_t const by_hand = 2 * std::size_t(side - 1) * std::size_t(side);
     CHECK(candidates<TestType>(body, p) == by_hand);
     body.bonds.push_back({0, side * side - 1});
     CHECK(candidates<TestType>(body, p) == by_hand);
-    // The diagonal bond is made at the distance it has and is no contact.
+    // The diagonal bond is without force at its initial distance, and is no contact.
     lacuna::simulation<TestType> run(body, p);
     CHECK(run.pairs().contacts().size() == by_hand);
     CHECK(run.pairs().bonds().size() == 1);
 }
 
-TEST_CASE("a huge particle makes nobody's search wider, nor its tolerance theirs", "[outliers]") {
+TEST_CASE("a huge particle does not widen the search or the tolerance of the others", "[outliers]") {
     int const side = 30;
     auto body = square<double>(side);
     auto p = springs<plane>(1e6, 5e5, 0.2, 2500);
@@ -59,7 +60,8 @@ TEST_CASE("a huge particle makes nobody's search wider, nor its tolerance theirs
     double const huge = 5000;
     body.add({side / 2.0, -std::sqrt((huge + 0.5) * (huge + 0.5) - 0.25) + 0.5}, huge);
     std::size_t const below = candidates<plane>(body, p) - by_hand;
-    // Half a skin of its own more than theirs, 0.0375 + 0.025: x^2 / 2 (R + 0.5) below that, x = 0.5, 1.5, ...: all 30 discs.
+    // Half a skin of its own more than theirs, 0.0375 + 0.025: x^2 / 2 (R + 0.5) below that, x = 0.5, 1.5, ...: all 30
+    // discs.
     CHECK(below == 30);
     p.interactions.initial_contact_tolerance = 0.2; // 0.1 for discs, by the smaller radius; 1000 for the huge one alone
     CHECK(candidates<plane>(body, p) == by_hand + 30);
@@ -71,7 +73,7 @@ TEST_CASE("a huge particle makes nobody's search wider, nor its tolerance theirs
 
 namespace {
 
-/// A bond of 3 m between discs of radius 0.5, in the middle of others that are far away, whose second end is moved.
+/// A bond of 3 m between two discs of radius 0.5 that are far from all others. Its second disc is moved.
 struct long_bond {
     lacuna::simulation<plane> run;
     double normal = 0, jump = 0;
@@ -87,7 +89,7 @@ struct long_bond {
         two.bonds.push_back({0, 1});
         lacuna::simulation<plane> s(two, p);
         for (std::size_t k : {0, 1}) s.fix(k);
-        s.set_velocity(12, {0.0, 0.05}); // its list grows old, too
+        s.set_velocity(12, {0.0, 0.05}); // its list becomes outdated, too
         return s;
     }()) {}
     void move(double dx, double dy, int steps) {
@@ -113,29 +115,30 @@ TEST_CASE("a long bond that fails becomes a contact, at any distance", "[outlier
         long_bond b(skin);
         b.move(-0.1, 0, 200); // compression: 10 N
         REQUIRE_THAT(b.normal, WithinRel(-10, 1e-9));
-        b.move(0, 0.02, 100); // shear beyond 1 N: fails, and keeps what presses
+        b.move(0, 0.02, 100); // shear beyond 1 N: fails, and keeps the compressive force
         REQUIRE(b.run.pairs().bonds().size() == 0);
         REQUIRE_THAT(b.normal, WithinRel(-10, 1e-3));
         double const broken = b.normal;
-        b.move(0, 0, 2000); // others have the list built anew meanwhile
+        b.move(0, 0, 2000); // meanwhile the motion of others rebuilds the list
         CHECK(b.normal == broken);
         if (skin < 1) CHECK(b.run.pairs().neighbors().build_count() > 2);
-        b.move(-0.05, 0, 200); // further together
+        b.move(-0.05, 0, 200); // closer again
         CHECK_THAT(b.normal, WithinRel(-15, 1e-3));
-        b.move(0.2, 0, 400); // beyond the distance at which it was made: it opens for good
+        b.move(0.2, 0, 400); // beyond its initial distance: it separates permanently
         CHECK(b.normal == 0);
-        b.move(-0.5, 0, 400); // where the bond would press there is nothing any more
+        b.move(-0.5, 0, 400); // at distances where the bond was compressed there is no force any more
         CHECK(b.normal == 0);
-        // Until they touch at the sum of their radii, from zero force.
+        // Until they touch at the sum of their radii, with a force that starts from zero.
         auto const arm = b.run.position(1) - b.run.position(0);
         double const gap = norm(arm) - 1;
         b.move(-(gap + 0.02), -arm[1], 4000);
         CHECK_THAT(b.normal, WithinAbs(-2, 0.2));
-        CHECK(b.jump < 100 * 0.6e-3 * 2); // no more than stiffness times a step's way
+        CHECK(b.jump < 100 * 0.6e-3 * 2); // at most stiffness times the path of a step
     }
 }
 
-TEST_CASE("a long bond that fails in tension meets again at the sum of the radii", "[outliers][hand-over]") {
+TEST_CASE("particles of a long bond that fails in tension touch again at the sum of the radii",
+          "[outliers][hand-over]") {
     auto p = springs<plane>(100, 100, 0.5, unit_density(2), 1, never);
     p.time_step = 1e-3;
     lacuna::packing<double, 2> two;
@@ -159,7 +162,7 @@ TEST_CASE("a long bond that fails in tension meets again at the sum of the radii
 
 namespace {
 
-/// Discs that press and rub each other, some of which start apart with a touching distance of their own; one is fast, one huge.
+/// Discs in frictional contact. Some start with a gap and an individual touching distance; one is fast, one is huge.
 template <class Model>
 lacuna::simulation<Model> crowd(double skin, int threads = 1, bool turned = false) {
     using real = typename Model::real;
@@ -167,7 +170,7 @@ lacuna::simulation<Model> crowd(double skin, int threads = 1, bool turned = fals
     p.interactions.skin = skin;
     p.interactions.initial_contact_tolerance = 0.05;
     p.time_step = 4e-4;
-    p.allow_unstable_step = true; // the bound may count with pairs that are far from touching
+    p.allow_unstable_step = true; // the bound may count pairs that are far from touching
     p.threads = threads;
     lacuna::packing<real, 2> all;
     if constexpr (Model::domain::periodic) p.domain.period = {60, 0};
@@ -190,8 +193,8 @@ lacuna::simulation<Model> crowd(double skin, int threads = 1, bool turned = fals
 
 } // namespace
 
-TEST_CASE("results do not depend on how wide a search is", "[outliers][determinism]") {
-    // Wide: every pair is a candidate throughout. Narrow: no skin, a search after every step.
+TEST_CASE("results do not depend on the range of the search", "[outliers][determinism]") {
+    // Wide: every pair is always a candidate. Narrow: no skin, and a search after every step.
     auto narrow = crowd<plane>(0), usual = crowd<plane>(0.1), wide = crowd<plane>(200);
     std::size_t broken = 0;
     for (int n = 0; n < 1500; ++n) {
@@ -208,7 +211,8 @@ TEST_CASE("results do not depend on how wide a search is", "[outliers][determini
         }
 }
 
-TEMPLATE_TEST_CASE("a crowd with outliers keeps its bits", "[outliers][determinism][checkpoint]", plane, single_plane, ring) {
+TEMPLATE_TEST_CASE("a crowd with outliers has the same bits with threads and after a restart",
+                   "[outliers][determinism][checkpoint]", plane, single_plane, ring) {
     auto one = crowd<TestType>(0.2), two = crowd<TestType>(0.2, 2), turned = crowd<TestType>(0.2, 1, true);
     auto resumed = crowd<TestType>(0.2);
     std::string const file = "outliers" + std::to_string(sizeof(typename TestType::real)) + std::to_string(TestType::domain::periodic) + ".bin";
@@ -228,8 +232,9 @@ TEMPLATE_TEST_CASE("a crowd with outliers keeps its bits", "[outliers][determini
         for (int axis = 0; axis < 2; ++axis) CHECK(one.position(k)[axis] == turned.position(one.size() - 1 - k)[axis]);
 }
 
-TEST_CASE("a particle with many more contacts than those around it moves as they push it", "[outliers]") {
-    // Rows of its chunk are uneven: 60 discs around a disc of radius 10, each with its own overlap; by hand the sum of forces.
+TEST_CASE("a particle with many more contacts than its neighbours gets the sum of their forces", "[outliers]") {
+    // Rows of its chunk are uneven: 60 discs around a disc of radius 10, each with its own overlap. The sum of their
+    // forces is computed by hand.
     auto p = springs<plane>(100, 0, 0, 1);
     p.time_step = 1e-6;
     lacuna::packing<double, 2> all;
@@ -247,7 +252,7 @@ TEST_CASE("a particle with many more contacts than those around it moves as they
     CHECK_THAT(run.velocity(0)[0], WithinRel(sum[0] / run.mass(0) * 1e-6, 1e-9));
 }
 
-TEST_CASE("a fast particle has no wall missed, nor all particles looked at", "[outliers][walls]") {
+TEST_CASE("a fast particle misses no wall, and does not make the walls check all particles", "[outliers][walls]") {
     auto body = square<double>(20);
     body.add({-2.0, 25.0}, 0.5);
     auto p = springs<plane>(4e4, 2e4, 0, 1);
@@ -260,7 +265,7 @@ TEST_CASE("a fast particle has no wall missed, nor all particles looked at", "[o
         p.walls.push_back(w);
     }
     lacuna::simulation<plane> run(body, p);
-    run.set_velocity(400, {100, 0}); // 0.01 in a step
+    run.set_velocity(400, {100, 0}); // 0.01 m per step
     double farthest = 0, nearest = 30;
     int turns = 0;
     for (int n = 0; n < 12000; ++n) {
@@ -270,7 +275,8 @@ TEST_CASE("a fast particle has no wall missed, nor all particles looked at", "[o
         farthest = std::max(farthest, run.position(400)[0]);
         nearest = std::min(nearest, run.position(400)[0]);
     }
-    // Between the walls there are 32 m: it comes back three times; springs turn it within v sqrt(m / k) = 100 sqrt(0.785 / 4e4) = 0.443.
+    // Between the walls there are 32 m: it comes back three times; springs turn it within v sqrt(m / k)
+    // = 100 sqrt(0.785 / 4e4) = 0.443.
     CHECK(turns == 3);
     CHECK(farthest < 29.5 + 0.45);
     CHECK(nearest > -2.5 - 0.45);

@@ -18,8 +18,8 @@
 #include "simulation/setups.hpp"
 
 /// \file
-/// Every number in every struct of parameters: fed not-a-number, infinities, zero, a negative and a huge value, it is
-/// accepted or refused by the rule that its documentation gives, with its name, the value and the rule.
+/// Gives NaN, infinities, zero, a negative and a huge value to every number in every struct of parameters. Each is
+/// accepted or refused as its documentation states, and a refusal has the name, the value and the rule.
 
 using namespace setups;
 
@@ -35,11 +35,11 @@ enum class rule {
     limit,        // >= 0, or infinite
     share,        // from 0 to 1
     open_share,   // > 0, up to 1
-    narrow,       // a range that no value fed is in
-    narrow_zero,  // the same, but for 0
+    narrow,       // a range that contains none of the test values
+    narrow_zero,  // the same, except for 0
     most,         // > 0, or infinite
     below,        // <= 0, or minus infinity
-    bound,        // positive, and bound to other fields: a huge value is too large for them
+    bound,        // positive and limited by other fields: the huge value is too large
     bound_or_zero // the same, or 0
 };
 
@@ -65,7 +65,7 @@ struct row {
     rule law;
 };
 
-/// All numbers of type double in an aggregate, in their order, those of nested aggregates and vectors included.
+/// All members of type double of an aggregate in their order, with those of nested aggregates and vectors.
 template <class T>
 void collect(T& value, std::vector<double*>& to) {
     if constexpr (std::is_same_v<T, double>)
@@ -151,7 +151,7 @@ TEST_CASE("each number of interactions, damping, walls, apertures, flow", "[refu
                                                               {"x.residual_aperture", rule::bound},
                                                               {"x.decay_force", rule::positive},
                                                               {"x.gap_factor", rule::share}});
-    // Those of the implicit scheme: the fluid's, and two of its own.
+    // Numbers of the implicit scheme: those of the fluid, and two more.
     for (double const value : fed) {
         lacuna::implicit_flow_parameters<lacuna::contact_force_aperture> p;
         p.solver_tolerance = value;
@@ -216,7 +216,8 @@ TEST_CASE("each number of a simulation", "[refusal]") {
             double const before = *numbers[k];
             *numbers[k] = value;
             INFO(rows[k].name << " = " << value);
-            // What is accepted may still be refused with its particles or be unstable, by name; nothing else happens.
+            // An accepted value may still be refused by name with the particles, or be unstable; nothing else may
+            // happen.
             try {
                 p.validate();
                 CHECK((accepted(rows[k].law, value) || rows[k].law == rule::bound));

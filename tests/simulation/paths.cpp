@@ -71,7 +71,7 @@ struct state {
     std::size_t broken = 0;
 };
 
-/// Through the library.
+/// Simulates a scenario with the library.
 template <class Model>
 state play(scenario const& s, bool breaks) {
     auto p = springs<Model>(s.contact_stiffness, 0.7 * s.contact_stiffness, s.friction, s.density, 0, 0);
@@ -97,7 +97,7 @@ state play(scenario const& s, bool breaks) {
     return end;
 }
 
-/// The same in plain numbers: every pair, every step, one after the other.
+/// The same scenario in plain numbers: every pair in every step, one after the other.
 state play_plainly(scenario const& s) {
     using contact = lacuna::frictional_spring;
     using bond = lacuna::brittle_spring_bond;
@@ -152,7 +152,7 @@ state play_plainly(scenario const& s) {
         }
         for (std::size_t k = 0; k < n; ++k) {
             auto& b = body[k];
-            // Velocities given before the first step are not those of a motion that has been.
+            // Velocities given before the first step do not belong to an earlier motion.
             if (step == 0) {
                 b.velocity = s.velocity[k];
                 b.spin = {s.spin[k]};
@@ -194,7 +194,7 @@ TEST_CASE("200 random scenarios: packs against plain numbers, double against flo
         single.push_back(difference(packs, play<plane_in_single>(s, false)));
         for (std::size_t k = 0; k < packs.position.size(); ++k)
             moved = std::max(moved, norm(packs.position[k] - s.discs.position[k]));
-        // Searches give the same pairs in the same order: not even rounding differs, through breaks and all.
+        // The searches give the same pairs in the same order: not even rounding differs, also after failures of bonds.
         auto const grid = play<plane>(s, true), brute = play<plane_by_brute_force>(s, true),
                    tree = play<plane_by_tree>(s, true);
         REQUIRE(brute.position == grid.position);

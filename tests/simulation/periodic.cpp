@@ -13,7 +13,7 @@
 #include "simulation/setups.hpp"
 
 /// \file
-/// Models in a domain that repeats itself: closed forms of rings and endless strips, and the same as in the open.
+/// Models in a periodic domain: closed forms of rings and endless strips, and comparisons with an open domain.
 
 using namespace setups;
 
@@ -21,7 +21,7 @@ namespace {
 
 struct ring : plane {
     using domain = lacuna::periodic_domain;
-    using damping = lacuna::local_damping; // off unless a test asks for it
+    using damping = lacuna::local_damping; // off by default
 };
 struct cell : space {
     using domain = lacuna::periodic_domain;
@@ -43,7 +43,7 @@ lacuna::packing<double, 2> closed_chain(int count) {
     return p;
 }
 
-/// A crowd in a periodic box of 8 by 6 (by 5), half of it bonded, thrown about.
+/// A crowd in a periodic box of 8 by 6 (by 5), half of it bonded, with random velocities.
 template <class Model>
 lacuna::simulation<Model> crowd(int threads, bool reversed = false) {
     constexpr int dim = Model::dim;
@@ -84,7 +84,7 @@ lacuna::simulation<Model> crowd(int threads, bool reversed = false) {
 
 } // namespace
 
-TEST_CASE("a closed chain swings with the frequencies of a ring", "[periodic]") {
+TEST_CASE("a closed chain oscillates with the frequencies of a ring", "[periodic]") {
     // omega = 2 sqrt(k/m) sin(pi n / N); the scheme's is 2/dt asin(omega dt / 2).
     int const count = 10;
     double const k = 100;
@@ -98,7 +98,7 @@ TEST_CASE("a closed chain swings with the frequencies of a ring", "[periodic]") 
         double const omega = 2 * std::sqrt(k) * std::sin(pi * n / count);
         double const turned = 2 * std::asin(0.5 * omega * p.time_step) / p.time_step;
         double worst = 0;
-        // x = A sin(turned t) from v(-dt/2) = speed: A = speed / turned (scheme) to the order of dt.
+        // x = A sin(turned t) from v(-dt/2) = speed: A = speed / turned (of the scheme) up to first order in dt.
         double const first = p.time_step * speed / std::sin(turned * p.time_step);
         for (int step = 1; step <= 400; ++step) {
             sim.step_with_energy();
@@ -111,7 +111,7 @@ TEST_CASE("a closed chain swings with the frequencies of a ring", "[periodic]") 
 }
 
 TEST_CASE("an endless strip of lattice has the lattice's C11", "[periodic]") {
-    // Rows along x, pulled across: no free side, so the strain along x is held at zero.
+    // Rows along x, pulled along y: there is no free side, so the strain along x stays zero.
     int const columns = 6, rows = 5;
     double const height = std::sqrt(0.75);
     for (std::string const ratio : {"1", "0.5", "0"}) {
@@ -145,7 +145,7 @@ TEST_CASE("an endless strip of lattice has the lattice's C11", "[periodic]") {
     }
 }
 
-TEMPLATE_TEST_CASE("across an end all is as within the open", "[periodic]", ring, cell) {
+TEMPLATE_TEST_CASE("pairs across an end of the period behave as in an open domain", "[periodic]", ring, cell) {
     // Three discs collide and drift through the end of the period, in the periodic domain and in an open one.
     constexpr int dim = TestType::dim;
     using open = std::conditional_t<dim == 2, plane, space>;
@@ -192,7 +192,8 @@ TEMPLATE_TEST_CASE("across an end all is as within the open", "[periodic]", ring
     }
 }
 
-TEMPLATE_TEST_CASE("a periodic crowd keeps its momentum, and its bits", "[periodic][determinism]", ring, cell) {
+TEMPLATE_TEST_CASE("a periodic crowd conserves momentum and has the same bits with threads and after a restart",
+                   "[periodic][determinism]", ring, cell) {
     auto one = crowd<TestType>(1), two = crowd<TestType>(2), turned = crowd<TestType>(1, true);
     auto const before = momentum(one);
     long long broken = 0;
@@ -211,7 +212,7 @@ TEMPLATE_TEST_CASE("a periodic crowd keeps its momentum, and its bits", "[period
         if (step > 300) resumed.step_with_energy();
     }
     CHECK(broken > 5);
-    CHECK(one.position(0)[0] > 7.5); // through the end, once around
+    CHECK(one.position(0)[0] > 7.5); // once around, through the end of the period
     CHECK(one.pairs().neighbors().build_count() > 5);
     for (int axis = 0; axis < TestType::dim; ++axis) CHECK_THAT(momentum(one)[axis] - before[axis], WithinAbs(0, 1e-9));
     CHECK(std::fabs(one.energy().residual()) < 5e-3 * one.energy().largest());
@@ -224,7 +225,7 @@ TEMPLATE_TEST_CASE("a periodic crowd keeps its momentum, and its bits", "[period
         }
 }
 
-TEST_CASE("periods that cannot be are refused by name", "[periodic][refusal]") {
+TEST_CASE("invalid periods are refused by name", "[periodic][refusal]") {
     auto p = undamped<ring>(100, 0, 0, 1000);
     auto const make = [&] { lacuna::simulation<ring>(closed_chain(4), p); };
     CHECK_THROWS_WITH(make(), contains_text("domain.period = 0: must be > 0 along one axis at least"));

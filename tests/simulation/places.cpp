@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Where particles are: at rest in either precision, too far for one, at one place.
+// Positions of particles: at rest in both precisions, too far from the origin for one of them, coinciding.
 
 #include <array>
 #include <cmath>
@@ -78,7 +78,7 @@ void stay(Simulation& sim, int steps) {
 
 } // namespace
 
-TEST_CASE("bodies at rest stay at rest in single precision", "[places]") {
+TEST_CASE("particles at rest stay at rest in single precision", "[places]") {
     for (double const offset : {0.0, 0.1, 1.0}) { // 0, 100 and 1,000 radii
         INFO("offset " << offset);
         auto p = springs<single<2>>(1e6, 5e5, 0.3, 2500);
@@ -93,8 +93,8 @@ TEST_CASE("bodies at rest stay at rest in single precision", "[places]") {
     }
 }
 
-TEST_CASE("squeezed and loaded bodies come to rest and stay there", "[places]") {
-    // Rows that overlap by a twentieth, in a frame that is held; without and with gravity and damping.
+TEST_CASE("squeezed and loaded packings come to rest and stay there", "[places]") {
+    // Rows that overlap by a twentieth, in a fixed frame; without and with gravity and damping.
     auto const squeezed = [](int n) {
         auto p = lattice(n, n, true);
         p.bonds.clear();
@@ -121,11 +121,11 @@ TEST_CASE("squeezed and loaded bodies come to rest and stay there", "[places]") 
         play(single<2>{}, offset, 0.3, 3000);
     }
     play(plane{}, 0, 0, 3000);
-    // So long that the last velocities are smaller than what moves anything.
+    // So long that the last velocities are too small to change any position.
     play(damped{}, 1.0, 0.5, 20000);
 }
 
-TEST_CASE("places that are too far from the origin are refused", "[places]") {
+TEST_CASE("positions too far from the origin are refused", "[places]") {
     auto const refusal = [](auto model, double at, double radius, bool guarded) {
         using type = decltype(model);
         auto p = springs<type>(1e6, 5e5, 0.3, 2500);
@@ -145,7 +145,7 @@ TEST_CASE("places that are too far from the origin are refused", "[places]") {
     CHECK_THAT(refusal(plane{}, 1e13, 1e-3, true), contains_text("double precision"));
 }
 
-TEST_CASE("motion that is lost to rounding is told", "[places]") {
+TEST_CASE("motion that is lost to rounding is reported", "[places]") {
     // 5,000 km from the origin numbers are 9.3e-10 m apart; 1 mm/s is 1e-10 m in a step of 1e-7 s.
     auto p = springs<plane>(1e2, 5e1, 0.3, 2500);
     p.time_step = 1e-7;
@@ -167,7 +167,7 @@ TEST_CASE("motion that is lost to rounding is told", "[places]") {
         p.guards.resolution = true;
     }
     {
-        // A body that a light one has pushed: nobody has given it its velocity.
+        // A particle that a light one has pushed: its velocity was not given.
         lacuna::packing<double, 2> two;
         two.add({5e6, 0}, 1e-3);
         two.add({5e6 + 1.1e-3 + 1e-5, 0}, 1e-4);
@@ -176,14 +176,14 @@ TEST_CASE("motion that is lost to rounding is told", "[places]") {
         lacuna::simulation<plane> sim(two, q);
         sim.set_velocity(1, {-5e-4, 0}); // 5e-9 m a step
         sim.fix(1, {false, true, false, true});
-        // Behind the rebound the heavy one keeps 2 / 101 of 5e-4 m/s: 1e-10 m a step; the light one is stopped.
+        // After the rebound the heavy particle keeps 2 / 101 of 5e-4 m/s: 1e-10 m a step; the light one is stopped.
         REQUIRE(thrown_by([&] { sim.run(10000); }).empty());
         REQUIRE_THAT(sim.velocity(0)[0], WithinRel(-1e-3 / 101, 0.03));
         sim.set_velocity(1, {0, 0});
         CHECK_THAT(thrown_by([&] { sim.run(1000); }), contains_text("particle 0") && contains_text("lost to rounding"));
     }
     {
-        // Fast enough: displacements are those of the velocity.
+        // Fast enough: displacements agree with the velocity.
         p.time_step = 1e-5;
         lacuna::simulation<plane> sim(far, p);
         sim.set_velocity(1, {0, 1e-3});
@@ -201,7 +201,7 @@ TEST_CASE("motion that is lost to rounding is told", "[places]") {
     }
 }
 
-TEST_CASE("two particles at one place are named before anything else", "[places]") {
+TEST_CASE("two particles at the same position are reported before any other fault", "[places]") {
     auto flat = lattice(3, 3, true);
     flat.bonds.clear();
     auto const n = std::to_string(flat.size());
@@ -214,7 +214,7 @@ TEST_CASE("two particles at one place are named before anything else", "[places]
     CHECK_THAT(thrown_by([&] { (void)filled<wet>(flat, springs<wet>(1, 1)); }), contains_text(there));
     p.guards.overlap = false;
     CHECK_THAT(thrown_by(dry), contains_text(there));
-    // So close that rounding decides on the direction.
+    // So close that rounding determines the direction.
     flat.position.back()[0] += 2.3e-16;
     REQUIRE(flat.position.back()[0] != flat.position[4][0]);
     CHECK_THAT(thrown_by(dry), contains_text(named));
@@ -229,7 +229,7 @@ TEST_CASE("two particles at one place are named before anything else", "[places]
                contains_text("particles 1 and 4 are at the same place (1, 0, 0)"));
 }
 
-TEST_CASE("an overlap of the start is named as one", "[places]") {
+TEST_CASE("messages name an initial overlap as such", "[places]") {
     lacuna::packing<double, 2> two;
     two.add({9, 9}, 0.5);
     two.add({0, 0}, 0.5);
@@ -252,7 +252,7 @@ TEST_CASE("an overlap of the start is named as one", "[places]") {
 }
 
 TEST_CASE("steps above the limit are caught within 100 steps, in either precision and space", "[places]") {
-    // Squeezed between two that are held: omega = 2 sqrt(k / m) sin(N pi / (2 (N + 1))), N = 6.
+    // Squeezed between two fixed particles: omega = 2 sqrt(k / m) sin(N pi / (2 (N + 1))), N = 6.
     double const limit = 1 / std::sin(6 * pi / 14);
     auto const caught = [&](auto model, bool bonded, double share, int steps) {
         using type = decltype(model);
@@ -285,8 +285,8 @@ TEST_CASE("steps above the limit are caught within 100 steps, in either precisio
     }
 }
 
-TEST_CASE("guards go on where they were after a restart", "[places]") {
-    // A pair that swings above its stable step is followed for some windows before it is stopped.
+TEST_CASE("guards continue after a restart", "[places]") {
+    // The guard follows a pair with a step above the stable one for some windows before it ends the run.
     auto p = springs<plane>(1, 0, 0, unit_density(2));
     p.time_step = 1.005 * std::sqrt(2.0);
     p.allow_unstable_step = true;

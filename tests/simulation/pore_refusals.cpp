@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Particles of which no pores can be made are named by the caller's numbers, not by their places in the simulation's arrays.
+// If no pores can be made from the particles, messages name these by the caller's numbers, not by internal indices.
 
 #include "catch.hpp"
 #include "simulation/setups.hpp"
@@ -36,12 +36,12 @@ struct body {
         p.guards.resolution = false;
         return simulation<model>(discs, p);
     }
-    /// Why these have no pores.
+    /// Refusal of these particles.
     template <class Make>
     std::string refusal(Make const& make) const {
         try {
             auto run = load();
-            // Else the two numberings could not be told from each other.
+            // Otherwise the two numberings could not be distinguished.
             bool sorted = false;
             for (std::size_t k = 0; k < run.size(); ++k) sorted = sorted || run.particles().id(k) != std::int32_t(k);
             CHECK(sorted);
@@ -56,7 +56,7 @@ struct body {
             return make_pore_network(triangulate_body(points, radii), points, radii);
         });
     }
-    /// "3 at (1, 2)", as messages name a particle.
+    /// Name of a particle in messages: "3 at (1, 2)".
     std::string name(std::size_t k) const {
         std::string text = std::to_string(k) + " at (";
         for (int axis = 0; axis < Dim; ++axis) text.append(axis == 0 ? "" : ", ").append(to_text(double(discs.position[k][axis])));
@@ -64,7 +64,7 @@ struct body {
     }
 };
 
-/// Corners by the places that they have in the arrays, such that they are those of ids 0 to Dim.
+/// Internal indices of the corners with ids 0 to Dim.
 template <class Real, int Dim>
 pore_mesh<Dim> mesh_of(std::array<std::int32_t, std::size_t(Dim) + 1> const& corners) {
     pore_mesh<Dim> mesh;
@@ -74,7 +74,7 @@ pore_mesh<Dim> mesh_of(std::array<std::int32_t, std::size_t(Dim) + 1> const& cor
     return mesh;
 }
 
-/// Particles against the order in which a simulation keeps them.
+/// Particles in the reverse of the order in which a simulation stores them.
 template <int Dim, class Real>
 body<Dim, Real> row(int count, double spacing) {
     body<Dim, Real> b;
@@ -106,7 +106,7 @@ void check() {
     auto few = row<Dim, Real>(Dim, 1);
     CHECK_THAT(few.refusal(), contains_text("particles around it, and there are " + std::to_string(Dim)));
 
-    // Two at one place, of a body that has pores without them.
+    // Two coinciding particles in a packing that has pores without them.
     auto twice = row<Dim, Real>(4, 1);
     vec<double, Dim> above{};
     above[0] = 0.5;
@@ -115,14 +115,14 @@ void check() {
     twice.discs.add(twice.discs.position[1], twice.discs.radius[1]);
     CHECK_THAT(twice.refusal(), contains_text("particles 1 and 5 are at the same place"));
 
-    // What a program makes its pores of itself.
+    // A mesh that the program makes itself.
     auto const made = flat.refusal([&](points_view<Real, Dim> points, Real const* radii) {
         std::array<std::int32_t, std::size_t(Dim) + 1> corners{};
         for (std::size_t i = 0; i < points.size(); ++i)
             for (std::size_t c = 0; c < corners.size(); ++c)
                 if (points[i] == flat.discs.position[c]) corners[c] = std::int32_t(i);
         if (Dim == 3) {
-            // Of no reference size either, the pore is refused.
+            // Without a reference size either, the pore is refused.
             std::vector<Real> none(points.size(), std::numeric_limits<Real>::min());
             return make_pore_network(mesh_of<Real, Dim>(corners), points, none.data());
         }
@@ -141,7 +141,7 @@ void check() {
     if (Dim == 3) round.discs.position[0] = convert<Real>(vec<double, Dim>{1}), round.discs.position[1] = {};
     CHECK(round.refusal() == "accepted");
 
-    if (sizeof(Real) == 4) return; // of which no number is that large
+    if (sizeof(Real) == 4) return; // its range has no number that large
     auto vast = row<Dim, Real>(5, 1);
     vast.add(beside);
     vast.discs.position[1][0] = Real(1e75);
@@ -155,7 +155,8 @@ TEST_CASE("particles without pores are named by the caller's numbers", "[fluid][
     check<3, float>();
 }
 
-TEST_CASE("a run that moves all particles onto a line ends where its pores are made anew, with their numbers", "[fluid][refusal]") {
+TEST_CASE("a run that moves all particles onto a line ends at the next mesh, and the message has their numbers",
+          "[fluid][refusal]") {
     using model = wet<2, double>;
     packing<double, 2> discs;
     for (int k = 2; k-- > 0;) discs.add({1.2 * k, 0}, 0.4);
@@ -171,7 +172,8 @@ TEST_CASE("a run that moves all particles onto a line ends where its pores are m
     for (std::size_t k = 0; k < 3; ++k) run.fix(k);
     run.set_velocity(0, {2, 0});
     run.set_velocity(2, {0, -2});
-    // After 0.4 s all lie on the line from particle 1 to particle 0, and somewhat earlier no void is left between them.
+    // After 0.4 s all lie on the line from particle 1 to particle 0, and slightly earlier there is no void between
+    // them.
     try {
         run.run(1000);
         FAIL("it went on");

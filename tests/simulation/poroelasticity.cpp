@@ -20,7 +20,7 @@ using namespace poroelasticity;
 
 namespace {
 
-/// Keys of a table of references and the numbers that they stand for.
+/// Keys of a table of references, with their numbers.
 std::vector<std::pair<std::string, double>> keys_of(std::string const& id, std::string const& table = "") {
     std::vector<std::pair<std::string, double>> keys;
     auto const& node = table.empty() ? reference_node(id) : reference_node(id, table);
@@ -59,7 +59,7 @@ TEST_CASE("the series of Terzaghi, Mandel and Cryer agree with the references") 
     }
 }
 
-TEST_CASE("the triangular column consolidates as its exact semi-discrete equations say (6a)") {
+TEST_CASE("the triangular column consolidates as its exact semi-discrete equations (6a)") {
     std::string const id = "6a.triangular_column";
     lattice_medium m;
     m.normal_stiffness = 1e6;
@@ -73,7 +73,7 @@ TEST_CASE("the triangular column consolidates as its exact semi-discrete equatio
     REQUIRE_THAT(m.confined_share(), WithinRel(reference(id, "macro", "gamma"), 1e-10));
 
     auto const body = make_column(21, 1, m.radius, 1);
-    // Light enough that inertia has no part: sound goes through the column 2000 times while it consolidates.
+    // So light that inertia has no effect: sound crosses the column 2000 times during the consolidation.
     double const slow = 2000 * m.diffusivity() / body.length();
     m.disc_mass *= std::pow(m.wave_speed() / slow, 2);
     auto const p = porous_parameters(m, 0);
@@ -128,8 +128,8 @@ TEST_CASE("Terzaghi's column: the error of the lattice falls with the square of 
 }
 
 TEST_CASE("biphasic creep of cartilage is that of the column (7)") {
-    // The same equation in T = t / tau: one column of 20 layers stands for all four tissues. A quarter of a layer is
-    // drained at T = 1.5e-4: before T = 0.02 the lattice has no say.
+    // The same equation in T = t / tau: one column of 20 layers represents all four tissues. A quarter of a layer is
+    // drained at T = 1.5e-4: before T = 0.02 the lattice is too coarse.
     terzaghi_setup setup;
     setup.layers = 20;
     terzaghi_column column(setup);
@@ -157,7 +157,7 @@ TEST_CASE("biphasic creep of cartilage is that of the column (7)") {
 
 TEST_CASE("stress relaxation of a column whose top is pushed down and held (7)") {
     std::string const id = "7.dimensionless", table = "relax sigma/(H_A eps0), t0=0.05 tau";
-    // The reference's fluid is incompressible. Where the displacement is prescribed, how stiff it is shows longest: at
+    // The reference's fluid is incompressible. With a prescribed displacement the compressibility matters longest: at
     // 0.01 tau a ninth of the stress is missing with K_f = 8 k_n.
     auto const [ratio, first, last] = GENERATE(std::array{60.0, 0.01, 0.06}, std::array{8.0, 0.06, 1.0});
     lattice_medium m;
@@ -245,10 +245,10 @@ TEST_CASE("Mandel's slab: the pressure in the middle rises to the reference's pe
         }
     }
     INFO(name);
-    // The reference's fluid is incompressible, its load sudden; half of the ramp is the delay that a ramp is.
+    // The reference's fluid is incompressible and its load is sudden; a ramp delays by half of its length.
     CHECK_THAT(highest, WithinRel(reference("6c.mandel_center", name, "p_peak/p0"), 0.02));
     CHECK_THAT(when - setup.ramp / 2, WithinRel(reference("6c.mandel_center", name, "T_peak"), 0.05));
-    // With the fluid and the load as they are.
+    // With the actual fluid and load.
     CHECK_THAT(highest, WithinRel(exact.peak().pressure, 0.005));
     CHECK_THAT(slab.middle_pressure(), WithinRel(reference("6c.mandel_center", name, "p(T=0.1)"), 0.02));
     REQUIRE(fluid.error() < 1e-10);

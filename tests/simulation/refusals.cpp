@@ -19,7 +19,7 @@ std::string refusal(auto const& build) {
     return "accepted";
 }
 
-/// Pushes three times as hard when a pair comes apart as when it comes together.
+/// Pushes three times as hard when a pair separates as when it approaches.
 struct pusher : lacuna::frictional_spring {
     template <class T, int Dim>
     static lacuna::pair_response<T, Dim, history<T, Dim>> evaluate(parameters<T> const& p,
@@ -130,7 +130,7 @@ TEST_CASE("each bad packing is refused by the particle's or bond's name", "[refu
     REQUIRE_THAT(attempt([](pack& p) { p.density = {1, 0, 1}; }), contains_text("particle 1.density = 0: must be > 0"));
     REQUIRE_THAT(attempt([](pack& p) { p.density = {1, 1, nan_value}; }), contains_text("particle 2.density = nan"));
     REQUIRE_THAT(attempt([](pack& p) { p.bond_type = {0}; }), contains_text("packing.bond_type.size() = 1"));
-    // Bonds of two types would be made alike.
+    // Bonds of two types would become equal.
     REQUIRE_THAT(attempt([](pack& p) { p.bond_type = {0, 2}; }), contains_text("parameters.bonds = none") && contains_text("types 1 and 3"));
     REQUIRE(attempt([](pack& p) { p.bond_type = {2, 2}; }) == "accepted");
     auto typed = chain<2>(3);
@@ -138,7 +138,7 @@ TEST_CASE("each bad packing is refused by the particle's or bond's name", "[refu
     settings by_type;
     by_type.bonds = lacuna::by_bond_type(typed, std::vector<lacuna::bond_values>{{}, {.normal_stiffness = 7.0}});
     REQUIRE(refusal([&] { lacuna::simulation<plane> run(typed, by_type); }) == "accepted");
-    // A packing of a periodic box in the open.
+    // A periodic packing in an open domain.
     REQUIRE_THAT(attempt([](pack& p) { p.period = {3, 0}; }), contains_text("domain.period = 0: must be that of the packing's box") && contains_text("3"));
     REQUIRE_THAT(attempt([](pack& p) { p.position[1] = p.position[0]; }), contains_text("bond 0.distance"));
     REQUIRE(attempt([](pack&) {}) == "accepted");
@@ -176,7 +176,7 @@ TEST_CASE("a run that went wrong says where", "[unstable]") {
     {
         lacuna::simulation<plane> run(chain<2>(5, false), p);
         for (int n = 0; n < 3; ++n) run.step();
-        run.set_velocity(3, {0, 0.51}); // 0.051 m in a step, 0.102 radii
+        run.set_velocity(3, {0, 0.51}); // 0.051 m per step, 0.102 radii
         expect(run, 3, 3, "of its radius in one step");
     }
     {
@@ -190,7 +190,7 @@ TEST_CASE("a run that went wrong says where", "[unstable]") {
         expect(run, 0, 2, "not a number");
     }
     {
-        // A spin alone: nothing touches the particle, so that no force and no velocity knows of it.
+        // Only a spin: nothing touches the particle, so that no force and no velocity depends on it.
         lacuna::packing<double, 2> one;
         one.add({0, 0}, 0.5);
         lacuna::simulation<plane> run(one, p);
@@ -255,7 +255,8 @@ TEST_CASE("a run whose energy runs away is stopped", "[unstable]") {
     };
     auto p = springs<plane>(1, 0, 0, unit_density(2));
     SECTION("seen from the speeds") {
-        // A free pair of 1 kg each swings at sqrt(2 k / m); a step above its limit of sqrt(2) s makes each swing larger.
+        // A free pair of 1 kg each oscillates at sqrt(2 k / m); a step above its limit of sqrt(2) s makes the amplitude
+        // grow.
         p.allow_unstable_step = true;
         p.time_step = 1.416;
         lacuna::simulation<plane> run(chain<2>(2), p);

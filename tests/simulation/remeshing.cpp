@@ -30,7 +30,8 @@ struct sheared_explicitly : setups::plane_locally_damped {
 
 constexpr int columns = 11, rows = 8;
 
-/// Discs of radius 0.4 to 0.5 in rows, the lowest held, the highest moved to the right; sealed, filled with fluid.
+/// Discs of radius 0.4 to 0.5 in rows, sealed and filled with fluid. The lowest row is fixed, the highest moves to the
+/// right.
 template <class Model>
 simulation<Model> make_shear(remesh_parameters const& remeshing, int threads = 1, bool reversed = false) {
     std::mt19937_64 engine(3);
@@ -68,7 +69,7 @@ simulation<Model> make_shear(remesh_parameters const& remeshing, int threads = 1
     return sim;
 }
 
-/// A run's state after each of so many steps.
+/// State of a run after every given number of steps.
 template <class Model>
 void check_resumed(std::string const& name, long long steps, std::size_t least) {
     std::string const path = "remeshing_" + name + ".bin";
@@ -91,7 +92,7 @@ void check_resumed(std::string const& name, long long steps, std::size_t least) 
         auto second = make_shear<Model>(often);
         load_checkpoint(path, second);
         REQUIRE(state_hash(second) == states[std::size_t(at - 1)]);
-        // On to the end, as a run that has gone elsewhere before, too.
+        // To the end, also from a run that had another state before.
         for (auto* run : {&second, &first}) {
             if (run == &first) load_checkpoint(path, first);
             for (long long n = at; n < steps; ++n) {
@@ -102,7 +103,7 @@ void check_resumed(std::string const& name, long long steps, std::size_t least) 
         REQUIRE(second.flow().network().pressure == whole.flow().network().pressure);
         REQUIRE(second.energy().residual() == whole.energy().residual());
     }
-    // Other pores than those of the file, of the same particles.
+    // Other pores than those of the file, from the same particles.
     auto other = make_shear<Model>(often);
     other.fill_pores([](points_view<double, 2> points, double const* radii) {
         auto drained = [](auto const&) { return throat_boundary<double>{boundary_kind::drained, 0.0}; };
@@ -111,7 +112,7 @@ void check_resumed(std::string const& name, long long steps, std::size_t least) 
     auto const before = state_hash(other);
     REQUIRE_THROWS_WITH(load_checkpoint(path, other), contains_text("it was made with other pores"));
     REQUIRE(state_hash(other) == before);
-    // And without remeshing it is of other settings.
+    // Without remeshing its settings differ.
     auto fixed = make_shear<Model>({remesh_rule::never});
     REQUIRE_THROWS_WITH(load_checkpoint(path, fixed), contains_text("other settings"));
     std::remove(path.c_str());
@@ -119,7 +120,8 @@ void check_resumed(std::string const& name, long long steps, std::size_t least) 
 
 /// Four discs A, B below and C, D above, radius 0.3, that do not touch, all held; C and D move to the right. The two
 /// pores are ABD and ADC first; once AD is longer than BC a triangulation has ABC and BDC. A and C are bonded.
-/// \param speed of C and D, m/s; \param drains the sides of a new mesh, not of the first, are drained
+/// \param speed of C and D, m/s
+/// \param drains whether the sides of a new mesh are drained; those of the first are not
 template <class Model>
 simulation<Model> make_four(simulation_parameters<Model> p, double strength, double speed = 5, bool drains = false) {
     packing<double, 2> discs;
@@ -189,7 +191,7 @@ TEST_CASE("a body sheared by more than its height: the mesh stays valid, the flu
         meshes = ledger.remeshes;
         REQUIRE(turned_over(sim) == 0);
         REQUIRE_THAT(ledger.remesh_residual, WithinAbs(0, 1e-12 * ledger.remesh_content));
-        // From scratch: what the pores of the old mesh held after the step, whose positions were those before it.
+        // Recomputed: the fluid in the pores of the old mesh after the step, with the positions before it.
         double before = 0, after = 0, scale = 0;
         for (std::size_t p = 0; p < old.pores(); ++p) {
             std::array<std::size_t, 3> const c{std::size_t(old.corner[0][p]), std::size_t(old.corner[1][p]),
@@ -206,16 +208,16 @@ TEST_CASE("a body sheared by more than its height: the mesh stays valid, the flu
         REQUIRE(most < 1.5 * most_before + 100);
     }
     REQUIRE(meshes > 20);
-    // With the mesh of the start the run ends where a pore has turned over.
+    // With the initial mesh the run ends once a pore is inverted.
     REQUIRE_THROWS_WITH(still.run(16000), contains_text("is turned over"));
     REQUIRE(still.flow().ledger().remeshes == 0);
     REQUIRE(turned_over(still) > 0);
-    // What the new meshes took out of the compressed fluid has its place in the ledger.
+    // The energy that the new meshes took out of the compressed fluid is in the ledger.
     REQUIRE(std::fabs(sim.energy().fluid_remesh) > 1e-4 * sim.energy().largest());
     REQUIRE(std::fabs(sim.energy().residual()) < 1e-4 * sim.energy().largest());
 }
 
-TEST_CASE("a mesh that fits is left alone, to the bit") {
+TEST_CASE("a mesh that fits is not replaced, and the bits stay the same") {
     auto watched = make_shear<sheared>({remesh_rule::when_needed, 1});
     auto plain = make_shear<sheared>({remesh_rule::never});
     watched.run(10);
@@ -225,7 +227,7 @@ TEST_CASE("a mesh that fits is left alone, to the bit") {
     for (std::size_t k = 0; k < plain.size(); ++k) REQUIRE(watched.position(k) == plain.position(k));
 }
 
-TEST_CASE("new meshes depend on no number of threads and on no order of input") {
+TEST_CASE("new meshes do not depend on the number of threads or the order of the input") {
     auto one = make_shear<sheared>({remesh_rule::when_needed, 20});
     auto two = make_shear<sheared>({remesh_rule::when_needed, 20}, 2);
     auto other = make_shear<sheared>({remesh_rule::when_needed, 20}, 1, true);
@@ -244,7 +246,7 @@ TEST_CASE("new meshes depend on no number of threads and on no order of input") 
     }
 }
 
-TEST_CASE("explicit flow is given a new mesh like implicit flow, bad intervals are refused") {
+TEST_CASE("explicit flow gets new meshes like implicit flow, and bad intervals are refused") {
     auto sim = make_shear<sheared_explicitly>({remesh_rule::when_needed, 20});
     sim.run(4000);
     REQUIRE(sim.flow().ledger().remeshes > 0);
@@ -258,12 +260,12 @@ TEST_CASE("a run with new meshes is resumed to the same bits, with implicit and 
     check_resumed<sheared_explicitly>("explicit", 2500, 1);
 }
 
-TEST_CASE("a broken bond is a reason for a new mesh, where that is asked for") {
+TEST_CASE("a broken bond causes a new mesh with on_broken_bond") {
     for (bool const asked : {false, true}) {
         simulation_parameters<sheared> p;
         p.time_step = 1e-3;
         p.remeshing = {remesh_rule::when_needed, 10, asked};
-        // The bond gives way at a stretch of 0.1 m, when C is 0.46 m to the right of A.
+        // The bond fails at a stretch of 0.1 m, when C is 0.46 m to the right of A.
         auto sim = make_four<sheared>(p, 100 / 0.6);
         long long broke = -1;
         while (broke < 0 && sim.steps() < 200) {
@@ -278,7 +280,7 @@ TEST_CASE("a broken bond is a reason for a new mesh, where that is asked for") {
         REQUIRE(sim.flow().ledger().remeshes == (asked ? 1 : 0));
         auto const& net = sim.flow().network();
         REQUIRE(net.interior_throats == 1);
-        // The throat between the pores is BC then, and AD without.
+        // The throat between the pores is then BC; without a new mesh it is AD.
         std::array<int, 2> ends{sim.particles().id(std::size_t(net.throat_particle[0][0])),
                                 sim.particles().id(std::size_t(net.throat_particle[1][0]))};
         std::sort(ends.begin(), ends.end());
@@ -294,7 +296,7 @@ TEST_CASE("the explicit flow's step is safe from the first step on, as throats o
     simulation_parameters<sheared_explicitly> p;
     p.flow.conductivity = conductivity;
     p.safety = 0.8;
-    SECTION("before anything has run, gaps count") {
+    SECTION("before the first step the present gaps count") {
         auto sim = make_four(p, 1e9);
         REQUIRE_THAT(sim.limits().flow, WithinRel(first, 1e-12));
         REQUIRE_THAT(sim.resolve_time_step(), WithinRel(0.8 * first, 1e-12));
@@ -302,7 +304,7 @@ TEST_CASE("the explicit flow's step is safe from the first step on, as throats o
         auto hasty = make_four(p, 1e9);
         REQUIRE_THROWS_WITH(hasty.step(), contains_text("time_step = ") && contains_text("the flow between pores"));
     }
-    SECTION("a step of the simulation's choice is chosen again as throats open") {
+    SECTION("a chosen step is chosen again as throats open") {
         auto sim = make_four(p, 1e9, 0.5);
         sim.flow().set_pressure(0, 100);
         int changes = 0;
@@ -311,7 +313,7 @@ TEST_CASE("the explicit flow's step is safe from the first step on, as throats o
             double const step = sim.time_step(), time = sim.time();
             sim.run(1);
             REQUIRE_THAT(sim.time(), WithinRel(time + step, 1e-12));
-            // Apertures are those of the positions before the step; the next look is at most 64 steps away.
+            // Apertures belong to the positions before the step; the next check is at most 64 steps away.
             double const limit = limit_of_four(conductivity, {0.98 + 0.5 * time, 1});
             REQUIRE_THAT(sim.limits().flow, WithinRel(limit, 1e-9));
             REQUIRE(step < 1.2 * limit);
@@ -324,7 +326,7 @@ TEST_CASE("the explicit flow's step is safe from the first step on, as throats o
         // Equal volumes and equal pressures, in the end.
         for (double const pressure : sim.flow().network().pressure) REQUIRE_THAT(pressure, WithinRel(50.0, 1e-9));
     }
-    SECTION("one that was asked for ends the run, unless unstable steps are allowed or steps are divided") {
+    SECTION("a given step ends the run, unless unstable steps are allowed or flow steps are divided") {
         p.time_step = 0.8 * first;
         auto const drive = [&] { return make_four(p, 1e9, 0.5); };
         long long expected = 63;
@@ -340,11 +342,11 @@ TEST_CASE("the explicit flow's step is safe from the first step on, as throats o
         auto bold = drive();
         REQUIRE(bold.run(expected + 100) == expected + 100);
     }
-    SECTION("a new mesh is looked at at once") {
+    SECTION("the limit of a new mesh is checked at once") {
         p.remeshing = {remesh_rule::when_needed, 10, true};
         p.safety = 0.95;
-        // The bond gives way when C is 0.95 m to the right of A, before the first look at step 64. Both rows move, so that the
-        // flow limits the step, not the way of a disc in a step.
+        // The bond fails when C is 0.95 m to the right of A, before the first check at step 64. Both rows move, so that
+        // the flow limits the step, not the path of a disc in a step.
         auto sim = make_four(p, (std::hypot(0.93, 1.0) - 1) * 1e3 / 0.6, 7.5, true);
         for (std::size_t const k : {0u, 1u}) sim.set_velocity(k, {-7.5, 0});
         double const chosen = sim.resolve_time_step();

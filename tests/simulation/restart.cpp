@@ -17,8 +17,8 @@
 #include "simulation/setups.hpp"
 
 /// \file
-/// What a program states and what a checkpoint holds: the same, or one line says in what they differ. What is said after
-/// load_checkpoint() holds from there on.
+/// Input of a program and content of a checkpoint agree, or one line names the difference. Calls after
+/// load_checkpoint() take effect from there on.
 
 using namespace setups;
 
@@ -26,7 +26,7 @@ namespace {
 
 std::string const file = "restart.bin";
 
-/// What load_checkpoint() says; the simulation is then as it was before.
+/// Message of a load_checkpoint() that fails; the simulation does not change.
 template <class Model>
 std::string answer(lacuna::simulation<Model>& sim) {
     auto const before = lacuna::state_hash(sim);
@@ -42,7 +42,7 @@ std::string answer(lacuna::simulation<Model>& sim) {
     return "accepted";
 }
 
-/// Stops a run after step `last`: one that goes on to the same end later is the same run.
+/// Stops a run after step `last`; continued to the same end it is the same run.
 struct stop_after {
     static constexpr lacuna::stage stages = lacuna::stage::step;
     long long last;
@@ -138,7 +138,8 @@ std::size_t leaves(T& value) {
     }
 }
 
-/// Each change is refused by its name. \param untold members of which there are no changes
+/// Each change is refused by its name.
+/// \param untold number of members that no change covers
 template <class Model>
 void check_changes(std::vector<change<Model>> const& changes, std::size_t untold) {
     auto p = plain_parameters<Model>();
@@ -158,7 +159,7 @@ void check_changes(std::vector<change<Model>> const& changes, std::size_t untold
     CHECK(answer(sim) == "accepted");
     CHECK(sim.settings().guards.motion_limit == 0.2);
 }
-/// Guards decide on when a run ends, not on its results: they may be others.
+/// Guards decide when a run ends, not on its results: they may differ.
 constexpr std::size_t guards = 9;
 
 template <class Model>
@@ -228,14 +229,14 @@ void add_flow(std::vector<change<Model>>& all) {
 
 } // namespace
 
-TEST_CASE("each setting that is another one is named, with fluid and walls", "[checkpoint][refusal]") {
+TEST_CASE("each setting that differs is named, with fluid and walls", "[checkpoint][refusal]") {
     auto explicit_ones = common_changes<wet>();
     add_flow(explicit_ones);
     explicit_ones.push_back({"flow.minimum_pressure", [](auto& p) { p.flow.minimum_pressure = -1e5; }});
     explicit_ones.push_back({"damping.local", [](auto& p) { p.damping.local = 0.1; }});
     explicit_ones.push_back({"damping.mass", [](auto& p) { p.damping.mass = 0.1; }});
     explicit_ones.push_back({"damping.viscous", [](auto& p) { p.damping.viscous = 0.1; }});
-    // Untold: bending_stiffness of two bonds, which this law does not take; threads, keep_pair_forces.
+    // Not covered: bending_stiffness of two bonds, which this law does not take; threads, keep_pair_forces.
     check_changes<wet>(explicit_ones, 5 + guards);
 
     auto implicit_ones = common_changes<wet_implicit>();
@@ -249,9 +250,10 @@ TEST_CASE("each setting that is another one is named, with fluid and walls", "[c
     check_changes<wet_implicit>(implicit_ones, 6 + guards);
 }
 
-TEST_CASE("each setting that is another one is named, in single precision, in space, on a ring", "[checkpoint][refusal]") {
+TEST_CASE("each setting that differs is named, in single precision, in 3D, in a periodic domain",
+          "[checkpoint][refusal]") {
     auto space = common_changes<space_in_single>();
-    std::erase_if(space, [](auto const& c) { return c.path == "remeshing.rule"; }); // never, in space
+    std::erase_if(space, [](auto const& c) { return c.path == "remeshing.rule"; }); // always `never` in 3D
     space.push_back({"mass", [](auto& p) { p.mass = lacuna::mass_model::disc; }});
     space.push_back({"damping.factor", [](auto& p) { p.damping.factor = 0.1; }});
     check_changes<space_in_single>(space, 5 + guards);
@@ -263,7 +265,7 @@ TEST_CASE("each setting that is another one is named, in single precision, in sp
     check_changes<ring>(periodic, 4 + guards);
 }
 
-TEST_CASE("particles, bonds and pores that are others are named", "[checkpoint][refusal]") {
+TEST_CASE("particles, bonds and pores that differ are named", "[checkpoint][refusal]") {
     auto const p = plain_parameters<wet>();
     lacuna::save_checkpoint(file, filled<wet>(p));
     auto const after = [&](auto const& spoil) {
@@ -305,7 +307,7 @@ TEST_CASE("particles, bonds and pores that are others are named", "[checkpoint][
 
 namespace {
 
-/// What is said before the first step, one call of each kind.
+/// Calls before the first step, one of each kind.
 template <class Model>
 struct calls {
     using simulation = lacuna::simulation<Model>;
@@ -382,7 +384,7 @@ void check_calls() {
         if (at > 0) first.run(6, stop_after{at});
         lacuna::save_checkpoint(file, first);
         INFO("after " << at << " steps");
-        // The same calls in another order, and none at all: the same bits.
+        // The same calls in another order, or no calls at all, give the same bits.
         auto other = filled<Model>(p), bare = filled<Model>(p);
         said.backwards(other);
         for (auto* sim : {&other, &bare}) {
@@ -410,7 +412,7 @@ void check_calls() {
             refused([](auto& c) { c.pressure = 8; }, "pressures and sources of the fluid");
             refused([](auto& c) { c.pressure = 0; }, "pressures and sources of the fluid"); // as without a call
         }
-        // One kind alone that was not said before.
+        // A single kind of call that was not made for the checkpoint.
         auto without = filled<Model>(p);
         without.run(at);
         lacuna::save_checkpoint(file, without);
@@ -426,13 +428,13 @@ void check_calls() {
 
 } // namespace
 
-TEST_CASE("calls before load_checkpoint() are those of the checkpoint, or are refused by their kind", "[checkpoint][refusal]") {
+TEST_CASE("calls before load_checkpoint() agree with the checkpoint, or are refused by kind", "[checkpoint][refusal]") {
     check_calls<wet>();
     check_calls<wet_in_single>();
     check_calls<space_in_single>();
 }
 
-TEST_CASE("what is said after load_checkpoint() holds from there on, and may be resumed again", "[checkpoint]") {
+TEST_CASE("calls after load_checkpoint() take effect from there on, and can be resumed again", "[checkpoint]") {
     // Two discs that touch nothing, 2 kg each: a load of F N for t s gives F t / m.
     auto p = springs<plane>(1, 1, 0, unit_density(2) * 2, 1, 1);
     p.time_step = 0.01;
@@ -448,13 +450,13 @@ TEST_CASE("what is said after load_checkpoint() holds from there on, and may be 
 
     lacuna::simulation<plane> second(two, p);
     lacuna::load_checkpoint(file, second);
-    second.apply(0, {5, 0}, 0, 0.5); // from the 1 N of then to 5 N within 0.5 s
-    second.apply(1, {0, 0});         // no more
+    second.apply(0, {5, 0}, 0, 0.5); // from the present 1 N to 5 N within 0.5 s
+    second.apply(1, {0, 0});         // load removed
     second.run(20);
     lacuna::save_checkpoint(file, second);
 
     lacuna::simulation<plane> third(two, p);
-    third.apply(0, {2, 0}, 0, 1.0); // as the first was made
+    third.apply(0, {2, 0}, 0, 1.0); // the same call as for the first
     third.apply(1, {1, 0});
     lacuna::load_checkpoint(file, third);
     std::remove(file.c_str());
@@ -468,7 +470,7 @@ TEST_CASE("what is said after load_checkpoint() holds from there on, and may be 
     REQUIRE_THAT(third.velocity(1)[0], WithinRel(0.5 / mass, 1e-12));
 }
 
-TEST_CASE("a particle that is let go keeps its velocity and is free", "[driving]") {
+TEST_CASE("a released particle keeps its velocity and moves freely", "[driving]") {
     auto p = springs<plane>(1, 1, 0, unit_density(2), 1, 1);
     p.time_step = 0.01;
     p.gravity = {0, -2};

@@ -8,7 +8,7 @@
 #include "simulation/setups.hpp"
 
 /// \file
-/// Discs and spheres that roll against a resisting moment, against rigid bodies with a constant one.
+/// Discs and spheres with rolling resistance, compared with rigid bodies under a constant resisting moment.
 
 using namespace setups;
 
@@ -19,7 +19,8 @@ struct rolling : lacuna::default_model<Dim> {
     using contact_law = lacuna::rolling_spring;
 };
 
-/// Earth's gravity, a floor that slopes along x by the given angle, and one body on it that overlaps by its weight.
+/// Earth's gravity, a floor with the given slope along x, and one particle on it with the overlap that carries its
+/// weight.
 template <int Dim>
 struct slope {
     static constexpr double radius = 0.1, g = 9.81, kn = 1e6, mass = 1;
@@ -43,7 +44,7 @@ struct slope {
 
 } // namespace
 
-TEMPLATE_TEST_CASE_SIG("a rolling body comes to rest by its resistance", "[rolling]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("rolling resistance brings a particle to rest", "[rolling]", ((int Dim), Dim), 2, 3) {
     double const resistance = 0.05, speed = 0.2;
     slope<Dim> s(resistance, 0);
     lacuna::simulation<rolling<Dim>> sim(s.body, s.p);
@@ -63,7 +64,7 @@ TEMPLATE_TEST_CASE_SIG("a rolling body comes to rest by its resistance", "[rolli
         worst = std::max(worst, std::fabs(sim.energy().residual()));
         if (!halfway && sim.time() > 0.5 * speed / slowing) {
             halfway = true;
-            // The velocity swings a little in the spring of the floor: the place tells the deceleration.
+            // The velocity oscillates slightly on the spring of the floor: the position gives the deceleration.
             double const t = sim.time();
             CHECK_THAT(sim.position(0)[0], WithinRel(speed * t - 0.5 * slowing * t * t, 1e-3));
         }
@@ -89,18 +90,19 @@ TEST_CASE("a disc stays on a slope up to the limit angle and rolls down beyond",
         double const early = place_at(0.1), halfway = place_at(0.45);
         place_at(0.8);
         if (share < 1) {
-            // It has swung in its spring, of strain mu_r m g / (k_s r), which is all.
+            // It only oscillates on its spring, with a strain of mu_r m g / (k_s r).
             CHECK(std::fabs(sim.position(0)[0]) < 10 * resistance * s.g / (0.5 * s.kn));
         } else {
             double const down = s.g * (std::sin(angle) - resistance * std::cos(angle)) / 1.5;
-            // From three places: it started with what the spring let go at first.
+            // From three positions, because the spring gave it an initial speed.
             CHECK_THAT(sim.position(0)[0] - 2 * halfway + early, WithinRel(down * 0.35 * 0.35, 5e-3));
         }
     }
 }
 
-TEMPLATE_TEST_CASE_SIG("two bodies pressed together stop rolling on each other", "[rolling]", ((int Dim), Dim), 2, 3) {
-    // Turning against each other like wheels of a gear, without slip, both by the moment mu_r R P.
+TEMPLATE_TEST_CASE_SIG("two particles pressed together stop rolling on each other",
+                       "[rolling]", ((int Dim), Dim), 2, 3) {
+    // They rotate in opposite directions like gear wheels, without slip; the moment mu_r R P decelerates both.
     double const resistance = 0.1, press = 20, spin = 3;
     lacuna::simulation_parameters<rolling<Dim>> p;
     p.materials[0].density = unit_density(Dim);
@@ -129,8 +131,8 @@ TEMPLATE_TEST_CASE_SIG("two bodies pressed together stop rolling on each other",
     CHECK(std::fabs(sim.spin(0)[about]) < 0.01 * spin);
 }
 
-TEST_CASE("the bound of the step counts with the stiffness against rolling", "[rolling]") {
-    // One disc on a wall, only its turn can move: omega^2 = (k_s r^2 + c k_s r^2) / I.
+TEST_CASE("the bound of the step includes the rolling stiffness", "[rolling]") {
+    // One disc on a wall that can only rotate: omega^2 = (k_s r^2 + c k_s r^2) / I.
     slope<2> s(0.1, 0);
     s.p.materials[0].contact.rolling_factor = 50;
     s.p.walls[0].material = s.p.materials[0].contact;

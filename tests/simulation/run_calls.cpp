@@ -18,7 +18,7 @@
 #include <lacuna/simulation/checkpoint.hpp>
 
 /// \file
-/// How a run is cut into calls of run() and step() changes nothing.
+/// Results do not depend on how a run is split into calls of run() and step().
 
 using namespace lacuna;
 
@@ -39,8 +39,8 @@ struct block_implicit : default_model<3> {
 
 double noise(std::size_t k, int salt) { return std::sin(12.9898 * double(k) + 78.233 * salt); }
 
-/// A wet body that is sheared by its own motion, so that pairs come and go, its pores drained on one side.
-/// \param duration of the flow's parameters, s
+/// A wet packing that is sheared by its own motion, so that pairs form and separate; its pores are drained on one side.
+/// \param duration duration in the flow's parameters, s
 template <class Model>
 simulation<Model> wet_body(double duration) {
     constexpr int dim = Model::dim;
@@ -88,7 +88,8 @@ std::size_t inactive_throats(Simulation const& sim) {
 
 } // namespace
 
-TEMPLATE_TEST_CASE("a wet body has the same bits however its run is cut into calls, and after a restart", "[flow][same bits]",
+TEMPLATE_TEST_CASE("a wet packing has the same bits however its run is split into calls, and after a restart",
+                   "[flow][same bits]",
                    sheet_explicit, sheet_implicit, block_explicit, block_implicit) {
     // A duration by which some throats matter and some do not.
     auto fresh = wet_body<TestType>(std::numeric_limits<double>::infinity());
@@ -117,7 +118,7 @@ TEMPLATE_TEST_CASE("a wet body has the same bits however its run is cut into cal
 
     ends.run(37);
     auto const saved = checkpoint_of(ends);
-    // It may go on for longer than was said.
+    // The run may last longer than the given duration.
     auto again = wet_body<TestType>(duration);
     resume_from(saved, "memory", again);
     again.run(steps - 37);
@@ -134,7 +135,7 @@ TEMPLATE_TEST_CASE("a wet body has the same bits however its run is cut into cal
     REQUIRE(state_hash(all) == state_hash(fresh));
 }
 
-TEST_CASE("what is set after the time step was asked for counts in the first step, of run() and of step()", "[same bits]") {
+TEST_CASE("settings after resolve_time_step() have an effect on the first step of run() and of step()", "[same bits]") {
     auto const pair = [] {
         packing<double, 2> discs;
         discs.add({0.0, 0.0}, 0.5);

@@ -16,7 +16,7 @@
 
 namespace {
 
-/// What a program would write: a line per hundred steps and one per crack, numbers in full.
+/// Output of a typical program: a line per hundred steps and per crack, with all digits.
 struct journal {
     static constexpr lacuna::stage stages = lacuna::stage::step | lacuna::stage::breakage;
     static constexpr bool needs_energy = true;
@@ -69,7 +69,7 @@ TEST_CASE("the coupled cartilage run: the same state and the same file with 1, 2
     }
 }
 
-TEST_CASE("the coupled cartilage run: the same whether pair forces are kept or not", "[determinism]") {
+TEST_CASE("the coupled cartilage run: the same whether pair forces are stored or not", "[determinism]") {
     auto const s = specimens::small();
     auto const kept = play(s, 1), forgotten = play(s, 1, false);
     REQUIRE_THAT(kept.written, contains_text("tension"));
@@ -98,7 +98,7 @@ TEST_CASE("the coupled cartilage run: the same for particles and bonds in any or
     for (auto& id : other.fixed) id = number(id);
     for (auto& id : other.loaded) id = number(id);
     auto const again = play(other, 1);
-    // What is written names no particle: it is the same to the byte, particles up to their numbers.
+    // The output names no particle: it is the same to the byte. Particles are the same up to their numbers.
     REQUIRE(again.written == one.written);
     for (std::size_t k = 0; k < n; ++k) {
         auto const to = std::size_t(number(std::int32_t(k)));

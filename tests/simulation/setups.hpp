@@ -11,7 +11,7 @@
 #include <lacuna/simulation.hpp>
 
 /// \file
-/// The assemblies that the tests of the simulator share.
+/// Packings that several tests of the simulator use.
 
 namespace setups {
 
@@ -52,7 +52,7 @@ lacuna::packing<double, Dim> chain(int count, bool bonded = true) {
     return p;
 }
 
-/// Bonds between all pairs whose gap is below `gap`, found by trying all.
+/// Bonds between all pairs whose gap is below `gap`, by a check of every pair.
 template <int Dim>
 void bond_touching(lacuna::packing<double, Dim>& p, double gap = 1e-6) {
     for (std::size_t i = 0; i < p.size(); ++i)
@@ -90,7 +90,7 @@ lacuna::vec<double, Model::dim> momentum(lacuna::simulation<Model> const& s) {
     return p;
 }
 
-/// What an exception of `play()` says; "" when none is thrown.
+/// Text of the exception that `play()` throws; "" if it throws none.
 template <class Play>
 std::string thrown_by(Play const& play) {
     try {

@@ -53,7 +53,7 @@ TEST_CASE("two spheres collide head-on in any direction", "[3d][collision]") {
 }
 
 TEST_CASE("two spheres that slide through a collision", "[3d][collision][friction]") {
-    // Gross sliding: the tangential impulse is mu times the normal impulse m v_n (equal masses, e = 1), against the
+    // Full sliding: the tangential impulse is mu times the normal impulse m v_n (equal masses, e = 1), opposite to the
     // slip; each sphere gains the spin R J_t / I, about the axis n x t.
     double const mu = 0.1, vn = 1e-4, vt = 1e-3;
     lacuna::vec<double, 3> const n{0.36, -0.48, 0.8}, t{0.8, 0.6, 0};
@@ -103,7 +103,7 @@ TEST_CASE("a pair of spheres pulled and sheared to failure", "[3d][fracture]") {
     }
 }
 
-TEST_CASE("a shear force in space is that of the slip, and turns the spheres", "[3d]") {
+TEST_CASE("a shear force in 3D follows the slip, and rotates the spheres", "[3d]") {
     lacuna::packing<double, 3> two = chain<3>(2);
     lacuna::simulation<space> run(two, unit_springs());
     run.fix(0);
@@ -125,7 +125,7 @@ TEST_CASE("a shear force in space is that of the slip, and turns the spheres", "
     REQUIRE_THAT(squared_norm(q), WithinRel(1.0, 1e-14));
 }
 
-TEST_CASE("a free sphere turns as its quaternion says", "[3d]") {
+TEST_CASE("the quaternion of a free sphere follows its rotation", "[3d]") {
     lacuna::packing<double, 3> one;
     one.add({0, 0, 0}, 0.5);
     auto p = unit_springs();
@@ -139,8 +139,8 @@ TEST_CASE("a free sphere turns as its quaternion says", "[3d]") {
     for (int k = 0; k < 3; ++k) REQUIRE_THAT(q[k + 1], WithinAbs(std::sin(1.0) * axis[k], 1e-6));
 }
 
-TEST_CASE("a work of loads and prescribed turning in space is in the ledger", "[3d][energy]") {
-    // The first sphere is turned at a given rate against the held second one: elastic work 1/2 k_s (R angle)^2.
+TEST_CASE("the work of loads and of prescribed rotation in 3D is in the ledger", "[3d][energy]") {
+    // The first sphere rotates at a given rate against the fixed second one: elastic work 1/2 k_s (R angle)^2.
     lacuna::simulation<space> run(chain<3>(2), unit_springs());
     run.fix(0);
     run.fix(1);
@@ -152,7 +152,7 @@ TEST_CASE("a work of loads and prescribed turning in space is in the ledger", "[
     REQUIRE(std::fabs(run.energy().residual()) < 1e-3 * expected);
 }
 
-TEST_CASE("a wall's shear force turns with the sphere that twists on it", "[3d][friction]") {
+TEST_CASE("the shear force of a wall rotates with the sphere that twists on it", "[3d][friction]") {
     // Slid by u along x, then spun about the wall's normal: k_s u, turned by half the sphere's angle, as by the mean of
     // the two spins. Two full turns and a bit.
     auto p = unit_springs(never, never, 1.0);

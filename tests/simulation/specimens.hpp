@@ -10,7 +10,7 @@
 
 namespace specimens {
 
-/// The program's model; a type of its own, because the program compiles the larger part of its model elsewhere.
+/// The program's model. It is a separate type, because the program compiles the larger part of its model elsewhere.
 struct wet : cartilage::wet_model {};
 using wet_run = lacuna::simulation<wet>;
 

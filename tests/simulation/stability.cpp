@@ -48,7 +48,7 @@ double exact_limit(lacuna::packing<double, 2> const& p, double ks, bool rotation
     return 2 / std::sqrt(solver.eigenvalues().maxCoeff());
 }
 
-/// Whether an assembly that is pushed a little stays where it is.
+/// Whether an assembly stays in place after a small push.
 template <class Model>
 bool stays(lacuna::packing<double, Model::dim> const& packing, lacuna::simulation_parameters<Model> p, double dt,
            bool rotation, int steps, bool only_along_x = false, bool ends_fixed = false) {
@@ -100,7 +100,7 @@ TEST_CASE("modes of a chain between fixed ends", "[stability][reference]") {
             for (std::size_t k = 1; k <= 10; ++k) sum += shape[k] * (run.position(k)[0] - double(k));
             return sum;
         };
-        // The scheme's own identity: q(t + dt) - 2 q(t) + q(t - dt) = -(omega dt)^2 q(t), for any dt.
+        // Identity of the scheme: q(t + dt) - 2 q(t) + q(t - dt) = -(omega dt)^2 q(t), for any dt.
         double above = 0, below = 0, old = 0, now = 0;
         for (int n = 0; n < 500; ++n) {
             run.step();
@@ -150,7 +150,7 @@ TEST_CASE("the stable step of lattices, with rotation and without", "[stability]
             }
 }
 
-TEST_CASE("lattices in space: the bound stays below the infinite lattice's limit", "[stability][reference][3d]") {
+TEST_CASE("lattices in 3D: the bound stays below the limit of the infinite lattice", "[stability][reference][3d]") {
     for (std::string const name : {"chain3D", "simple_cubic", "fcc"})
         for (std::string const ks : {"1", "0.5", "0"})
             for (bool const rotation : {true, false}) {
@@ -179,9 +179,9 @@ TEST_CASE("lattices in space: the bound stays below the infinite lattice's limit
             }
 }
 
-TEST_CASE("damping shortens the stable step, and the bound knows it", "[stability]") {
+TEST_CASE("damping shortens the stable step, and the bound includes it", "[stability]") {
     // Two free discs: omega^2 = 2 k / m = 2. Local damping multiplies the force against the motion by 1 + alpha; a
-    // dashpot that sees the velocity of half a step ago leaves omega dt < 2 (sqrt(1 + zeta^2) - zeta).
+    // dashpot with the velocity of half a step before requires omega dt < 2 (sqrt(1 + zeta^2) - zeta).
     auto const check = [](auto model, auto const& p, double limit) {
         using type = decltype(model);
         REQUIRE(stays<type>(chain<2>(2), p, 0.995 * limit, false, 5000, true));
@@ -210,7 +210,7 @@ TEST_CASE("damping shortens the stable step, and the bound knows it", "[stabilit
     }
 }
 
-TEST_CASE("a step above the bound is refused, and runs when asked to", "[stability]") {
+TEST_CASE("a step above the bound is refused, and runs with allow_unstable_step", "[stability]") {
     auto p = springs<plane>(1, 1, 0, unit_density(2));
     p.time_step = 0.9;
     {

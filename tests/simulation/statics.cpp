@@ -19,8 +19,10 @@ lacuna::simulation_parameters<plane_locally_damped> damped(double ks = 1, double
 
 } // namespace
 
-TEST_CASE("a chain without bending stiffness is a gear train: no static stiffness across", "[statics][reference]") {
-    // A force across, moments balanced by rolling: with free rotations no shear force can stand anywhere.
+TEST_CASE("a chain without bending stiffness is a gear train: it has no transverse static stiffness",
+          "[statics][reference]") {
+    // Under a transverse force rolling balances the moments: with free rotations no bond can carry a static shear
+    // force.
     double const force = 1e-7;
     auto p = springs<plane_viscous>(1, 1, 0, unit_density(2));
     p.damping.ratio = 0.1;
@@ -32,15 +34,15 @@ TEST_CASE("a chain without bending stiffness is a gear train: no static stiffnes
     for (int block = 0; block < 4; ++block) {
         while (run.time() < 25 * (block + 1)) run.step();
         double const tip = run.position(10)[1];
-        // With any stiffness k_t the tip would swing about force / k_t; the rope's falls ever faster, at least as
-        // the heaviest mechanism does: all ten discs and their spins.
+        // With any stiffness k_t the tip would oscillate about force / k_t. Here it accelerates, at least like the
+        // heaviest mechanism: all ten discs and their spins.
         REQUIRE(tip - previous > force * 0.5 * 25 * 25 / 20.0);
         previous = tip;
     }
     REQUIRE(reference("4a.zero_modes", "transverse_static_stiffness") == 0);
 }
 
-TEST_CASE("a chain whose discs cannot turn is a shear beam", "[statics][reference]") {
+TEST_CASE("a chain whose discs cannot rotate is a shear beam", "[statics][reference]") {
     double const force = 1e-6;
     lacuna::simulation<plane_locally_damped> run(chain<2>(11), damped());
     run.fix(0);
@@ -53,7 +55,7 @@ TEST_CASE("a chain whose discs cannot turn is a shear beam", "[statics][referenc
 }
 
 TEST_CASE("a chain under tension is a rope along the tip's force", "[statics][reference]") {
-    // The rope's slow modes need long: sqrt(T/k) = 0.1 of the chain's speed.
+    // The rope's modes are slow: their speed is sqrt(T/k) = 0.1 of the chain's.
     lacuna::simulation<plane_locally_damped> run(chain<2>(11), damped(1, 0.5));
     run.fix(0);
     run.apply(10, {0.01, 1e-5});
@@ -64,7 +66,7 @@ TEST_CASE("a chain under tension is a rope along the tip's force", "[statics][re
         REQUIRE_THAT(run.position(k)[1] / run.position(k)[0], WithinRel(reference("4c.tension_rope", "slope"), 1e-3));
 }
 
-TEST_CASE("patch test: the inside of a lattice follows an affine motion of its rim", "[statics][reference]") {
+TEST_CASE("patch test: the interior of a lattice follows an affine motion of its rim", "[statics][reference]") {
     int const n = 8;
     auto const packing = lattice(n, n, true);
     auto const g = reference_table("3b.patch_test", "G");
@@ -120,7 +122,7 @@ TEST_CASE("patch test: the inside of a lattice follows an affine motion of its r
 }
 
 TEST_CASE("moduli of the triangular lattice", "[statics][reference]") {
-    // All discs are moved: the stress at a middle disc is then that of the affine field itself.
+    // All discs are moved: the stress at a middle disc is then exactly that of the affine field.
     int const n = 5;
     auto const packing = lattice(n, n, true);
     std::size_t const middle = 12;
@@ -132,7 +134,8 @@ TEST_CASE("moduli of the triangular lattice", "[statics][reference]") {
             auto p = damped(std::stod(ratio));
             lacuna::simulation<plane_locally_damped> run(packing, p);
             for (std::size_t k = 0; k < run.size(); ++k) run.fix(k);
-            double const duration = 10 * run.resolve_time_step(); // where all are held no step is too long: a share of eq. 9's
+            // If all discs are fixed, no step is too long: this is a share of eq. 9.
+            double const duration = 10 * run.resolve_time_step();
             for (std::size_t k = 0; k < run.size(); ++k) {
                 auto const& x = packing.position[k];
                 if (kind == "stretch")

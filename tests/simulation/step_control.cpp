@@ -70,7 +70,7 @@ void meet(double speed, double young) {
     CHECK(std::fabs(sim.energy().residual()) < 0.02 * sim.energy().largest());
 }
 
-/// F = k x + c x^2, with a dent or without: let out, it is stiffer by a factor.
+/// F = k x + c x^2, elastic or with a permanent dent: then unloading is stiffer than loading by a factor.
 template <bool States>
 struct curved_contact {
     struct material {
@@ -128,7 +128,8 @@ struct stop_at {
     }
 };
 
-/// Calls sim.step() until done(sim), `most` times at most. \return whether it was done
+/// Calls sim.step() until done(sim), at most `most` times.
+/// \return whether done(sim) became true
 template <class Simulation>
 bool run_until(Simulation& sim, long long most, std::function<bool(Simulation const&)> const& done) {
     for (long long n = 0; n < most; ++n) {
@@ -140,7 +141,7 @@ bool run_until(Simulation& sim, long long most, std::function<bool(Simulation co
 
 } // namespace
 
-TEST_CASE("a step of the library's choice resolves a Hertzian collision that it begins without a contact", "[step]") {
+TEST_CASE("a chosen step resolves a Hertzian collision of a run that starts without contacts", "[step]") {
     for (auto const& [speed, young] : {std::pair{0.1, 1e9}, std::pair{0.1, 1e6}, std::pair{5.0, 1e9}, std::pair{1e-3, 1e9}}) {
         meet<elastic_spheres<3>>(speed, young);
         meet<elastic_spheres<2>>(speed, young);
@@ -149,8 +150,9 @@ TEST_CASE("a step of the library's choice resolves a Hertzian collision that it 
     meet<elastic_spheres<2, float>>(0.5, 1e8);
 }
 
-TEST_CASE("a step of the library's choice resolves what happens at walls, at rest or in motion", "[step]") {
-    // A sphere falls on a floor; a stiff wall comes up to a sphere at rest, which leaves at twice its speed.
+TEST_CASE("a chosen step resolves collisions with walls, at rest or in motion", "[step]") {
+    // A sphere falls on a floor; a stiff wall moves towards a sphere at rest, which leaves at twice the speed of the
+    // wall.
     for (bool const moving : {false, true}) {
         using model = elastic_spheres<3>;
         auto p = steel<model>(1e8);
@@ -177,7 +179,7 @@ TEST_CASE("a step of the library's choice resolves what happens at walls, at res
     }
 }
 
-TEST_CASE("a step of the library's choice counts with dashpots, also beyond critical damping", "[step][damping]") {
+TEST_CASE("a chosen step includes dashpots, also beyond critical damping", "[step][damping]") {
     for (double const e : {0.05, 0.5}) {
         using model = elastic_spheres<3, double, lacuna::restitution_damping>;
         auto p = steel<model>();
@@ -196,7 +198,8 @@ TEST_CASE("a step of the library's choice counts with dashpots, also beyond crit
         INFO("e = " << e);
         CHECK_THAT(sim.velocity(1)[0] - sim.velocity(0)[0], WithinAbs(e, 0.02));
     }
-    // x'' = -w^2 x - 2 z w x' with z = 2 pushes until spring and dashpot together do: at least e^(-t ...) of the speed is left.
+    // x'' = -w^2 x - 2 z w x' with z = 2 pushes until spring and dashpot together do: at least e^(-t ...) of the speed
+    // is left.
     auto p = springs<plane_combined>(1e6, 0);
     p.damping.viscous = 2;
     lacuna::packing<double, 2> two;
@@ -205,7 +208,8 @@ TEST_CASE("a step of the library's choice counts with dashpots, also beyond crit
     lacuna::simulation<plane_combined> sim(two, p);
     sim.set_velocity(0, {0.5, 0});
     double const z = 2, w = std::sqrt(2 * 1e6 / sim.mass(0)), root = std::sqrt(z * z - 1);
-    // x = v / (w root) e^(-z w t) sinh(w root t); the force vanishes where x'' = 0: tanh(w root t) = 2 z root / (2 z^2 - 1).
+    // x = v / (w root) e^(-z w t) sinh(w root t); the force vanishes where x'' = 0:
+    // tanh(w root t) = 2 z root / (2 z^2 - 1).
     double const t = std::atanh(2 * z * root / (2 * z * z - 1)) / (w * root);
     double const left = -0.5 * std::exp(-z * w * t) * (std::cosh(w * root * t) - z / root * std::sinh(w * root * t));
     bool touched = false;
@@ -217,8 +221,8 @@ TEST_CASE("a step of the library's choice counts with dashpots, also beyond crit
     CHECK_THAT(sim.velocity(1)[0] - sim.velocity(0)[0], WithinAbs(left, 0.02 * 0.5));
 }
 
-TEST_CASE("a light, stiff particle that flies into a soft, heavy bed is followed", "[step]") {
-    // It meets one of its kind that lies on the bed: they exchange their velocities.
+TEST_CASE("the step follows a light, stiff particle that flies into a soft, heavy bed", "[step]") {
+    // It hits an equal particle that lies on the bed: they exchange their velocities.
     lacuna::simulation_parameters<plane> p;
     p.materials = {{2000, {1e4, 0, 0}, {}}, {2, {1e9, 0, 0}, {}}};
     lacuna::packing<double, 2> bed;
@@ -235,8 +239,9 @@ TEST_CASE("a light, stiff particle that flies into a soft, heavy bed is followed
     CHECK_THAT(sim.velocity(21)[0], WithinAbs(0, 0.06));
 }
 
-TEST_CASE("a step that is chosen, or grows, is made for what may touch within it", "[step]") {
-    // Soft discs at rest give a long step; a stiff, light one flies at another, which is closer than it goes in that step.
+TEST_CASE("a step that is chosen, or grows, includes contacts that may form within it", "[step]") {
+    // Soft discs at rest give a long step. A stiff, light one flies towards another, which is closer than its path in
+    // that step.
     for (double const gap : {0.004, 0.006, 0.012, 0.02, 0.045, 0.11, 0.3}) {
         CAPTURE(gap);
         lacuna::simulation_parameters<plane> p;
@@ -278,7 +283,7 @@ TEST_CASE("a given step that contacts make unsafe stops the run with both number
         REQUIRE_THROWS_WITH(sim.step(), contains_text("time step of 0.0016 s is above the stable limit, which is 0.0014142") &&
                                             contains_text("contacts have formed"));
     }
-    // Hertz: a step that is safe for a light touch, and not for a deep overlap under a load.
+    // Hertz: a step that is safe for a light contact, but not for a deep overlap under a load.
     using model = elastic_spheres<3>;
     auto p = steel<model>(1e8);
     p.materials[0].contact.shear_factor = 0;
@@ -286,7 +291,7 @@ TEST_CASE("a given step that contacts make unsafe stops the run with both number
     two.add({0, 0, 0}, 0.01);
     two.add({0.02, 0, 0}, 0.01);
     double const mass = 2500 * 4.0 / 3 * pi * 1e-6, modulus = 1e8 / (2 * 0.91), overlap = 2e-4;
-    // At an overlap x the stiffness is 2 E* sqrt(R x), here of a sphere against a held one.
+    // At an overlap x the stiffness is 2 E* sqrt(R x), here of a sphere against a fixed one.
     p.time_step = 2 / std::sqrt(2 * modulus * std::sqrt(0.005 * overlap) / mass);
     lacuna::simulation<model> sim(two, p);
     sim.fix(0);
@@ -303,7 +308,7 @@ TEST_CASE("a given step that contacts make unsafe stops the run with both number
     CHECK(deepest < 1.1 * overlap);
 }
 
-TEST_CASE("the step follows contacts, and a look is rare in a lively run", "[step]") {
+TEST_CASE("the step follows contacts, and limits are rarely computed in a run with many events", "[step]") {
     auto p = springs<plane>(1e6, 5e5, 0.3, 2500);
     lacuna::packing<double, 2> gas;
     for (int k = 0; k < 400; ++k) gas.add({1.15 * (k % 20) + 0.1 * std::sin(7.0 * k), 1.15 * (k / 20)}, 0.5);
@@ -319,7 +324,7 @@ TEST_CASE("the step follows contacts, and a look is rare in a lively run", "[ste
     CHECK(sim.time_step() < 0.5 * sim.limits().critical());
 }
 
-TEST_CASE("a contact law of one's own: the step counts with the stiffness that it states", "[step][refusal]") {
+TEST_CASE("a user's contact law: the step uses the stiffness that the law states", "[step][refusal]") {
     auto const limit_of = [](auto model, auto const& contact) {
         using type = decltype(model);
         using real = typename type::real;
@@ -334,12 +339,13 @@ TEST_CASE("a contact law of one's own: the step counts with the stiffness that i
         lacuna::simulation<type> sim(two, p);
         return sim.limits().critical() / std::sqrt(sim.mass(0)); // 2 / omega = sqrt(2 m / k)
     };
-    // Pressed in with 1e6 N/m, let out with 4e6 N/m.
+    // Loading with 1e6 N/m, unloading with 4e6 N/m.
     curved_contact<false>::material const dents{1e6, 0, 4e6};
     CHECK_THAT(limit_of(curved<false, 2>{}, dents), WithinRel(std::sqrt(2 / 4e6), 1e-6));
     CHECK_THAT(limit_of(curved<false, 3>{}, dents), WithinRel(std::sqrt(2 / 4e6), 1e-6));
     CHECK_THAT(limit_of(curved<false, 2, float>{}, dents), WithinRel(std::sqrt(2 / 4e6), 1e-5));
-    // A stiffness that grows is followed by a law that says so, bounded by one that states the most; else it is refused.
+    // A growing stiffness: the step follows it if the law states the present value, is bounded if the law states the
+    // largest; otherwise the law is refused.
     curved_contact<false>::material const grows{1e6, 1e7, 1e6};
     CHECK_THROWS_WITH(limit_of(curved<false, 2>{}, grows),
                       contains_text("stiffness of the contact law") && contains_text("stiffness(parameters, pair_motion, history)"));
@@ -348,7 +354,7 @@ TEST_CASE("a contact law of one's own: the step counts with the stiffness that i
 }
 
 TEST_CASE("pairs that are far from touching make no step shorter", "[step]") {
-    // Rows of discs; bonds along the rows hold each to its neighbours. A tether from the first to the last.
+    // Rows of discs; bonds connect neighbours in a row. A tether connects the first disc to the last.
     auto const sheet = [](double gap, bool tether) {
         lacuna::packing<double, 2> discs;
         for (int k = 0; k < 900; ++k) discs.add({1.0 * (k % 30), (1.0 + gap) * (k / 30)}, 0.5);
@@ -373,7 +379,7 @@ TEST_CASE("pairs that are far from touching make no step shorter", "[step]") {
     CHECK_THAT(with(0, true), WithinRel(touching, 0.01));
 }
 
-TEST_CASE("a run that is resumed in mid-flight looks at its step as the whole one does", "[step][checkpoint]") {
+TEST_CASE("a run that is resumed in mid-flight adapts its step like the uninterrupted run", "[step][checkpoint]") {
     using model = elastic_spheres<2>;
     auto const make = [] {
         auto p = steel<model>(1e7);

@@ -9,7 +9,7 @@
 #include "simulation/setups.hpp"
 
 /// \file
-/// How bonds with Mohr-Coulomb's envelope, and bonds whose strengths scatter, break in a run.
+/// Failure of bonds with Mohr-Coulomb's envelope, and of bonds with scattered strengths, in a run.
 
 using namespace setups;
 
@@ -39,7 +39,7 @@ lacuna::break_event<2> first_break(lacuna::simulation<Model>& sim) {
 
 } // namespace
 
-TEST_CASE("a bond breaks on Mohr-Coulomb's line, and the event says how", "[envelope]") {
+TEST_CASE("a bond breaks on Mohr-Coulomb's line, and the event has the mode", "[envelope]") {
     // Pressed by a given force, then sheared: |F_s| = 10 - F_n tan phi.
     for (double const normal : {-20.0, -6.0, 0.0, 2.0}) {
         lacuna::simulation<rock> sim(chain<2>(2), rock_parameters());
@@ -55,7 +55,7 @@ TEST_CASE("a bond breaks on Mohr-Coulomb's line, and the event says how", "[enve
         CHECK(event.mode == lacuna::bond_state::broken_in_shear);
         CHECK_THAT(event.normal_force, WithinAbs(normal, 0.01));
         CHECK_THAT(std::fabs(event.shear_force), WithinRel(10 - 0.5 * event.normal_force, 2e-3));
-        // A frictional contact takes over: its limit is 0.3 |F_n|.
+        // A frictional contact replaces it: its limit is 0.3 |F_n|.
         CHECK_THAT(std::fabs(sim.pair_force(0, 1)[1]), WithinAbs(0.3 * std::max(-normal, 0.0), 0.01));
     }
     lacuna::simulation<rock> pulled(chain<2>(2), rock_parameters());
@@ -73,7 +73,7 @@ TEST_CASE("Mohr-Coulomb's bond is elastic under any compression, the paper's is 
         sim.prescribe_velocity(1, {-0.01, 0});
         while (sim.position(1)[0] > 1 - 1e-3) sim.step();
         double const deepest = sim.position(1)[0];
-        sim.step(); // the force of that place
+        sim.step(); // the force at that position
         return force_along_x(sim, 0, 1) / (1e5 * (deepest - 1));
     };
     auto paper = springs<plane>(1e5, 1e5, 0.3, unit_density(2), 4, 10);
@@ -81,7 +81,7 @@ TEST_CASE("Mohr-Coulomb's bond is elastic under any compression, the paper's is 
     CHECK_THAT(press(plane{}, paper), WithinRel(4 / (1e5 * 1e-3), 1e-2));
 }
 
-TEST_CASE("of scattered strengths the weakest breaks first, whatever the order of bonds", "[weibull]") {
+TEST_CASE("the weakest of bonds with scattered strengths breaks first, for any order of the bonds", "[weibull]") {
     lacuna::weibull_strengths const scatter{3, 11};
     auto discs = chain<2>(12);
     std::vector<double> strength;

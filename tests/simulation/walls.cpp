@@ -8,13 +8,13 @@
 #include "simulation/setups.hpp"
 
 /// \file
-/// Walls that move, as they are told or as a servo asks.
+/// Walls that move: with prescribed velocities, or by a servo.
 
 using namespace setups;
 
 namespace {
 
-/// A disc or sphere of 1 kg and radius 0.5 m at the origin and, `away` below its foot, a wall that faces up.
+/// A disc or sphere of 1 kg and radius 0.5 m at the origin, and an upward facing wall `away` below its lowest point.
 template <class Model>
 struct above_a_wall {
     static constexpr int dim = Model::dim;
@@ -35,7 +35,7 @@ lacuna::vec<double, 2> along_y(double v) { return {0, v}; }
 
 } // namespace
 
-TEMPLATE_TEST_CASE("a wall that comes from afar throws a body off at twice its speed", "[walls]", plane, space) {
+TEMPLATE_TEST_CASE("a particle leaves a moving wall at twice the speed of the wall", "[walls]", plane, space) {
     above_a_wall<TestType> s(1.2);
     lacuna::simulation<TestType> sim(s.body, s.p);
     lacuna::vec<double, TestType::dim> v{};
@@ -53,7 +53,7 @@ TEMPLATE_TEST_CASE("a wall that comes from afar throws a body off at twice its s
     CHECK(worst < 1e-3 * 0.5);
 }
 
-TEST_CASE("a body on a belt slips, and rolls with a third of its speed", "[walls]") {
+TEST_CASE("a particle on a belt slips, then rolls at a third of the belt's speed", "[walls]") {
     double const g = 10, mu = 0.3, belt = 0.6, kn = 1e6;
     above_a_wall<plane> s(-1 * g / kn, mu, kn);
     s.p.gravity = {0, -g};
@@ -62,7 +62,7 @@ TEST_CASE("a body on a belt slips, and rolls with a third of its speed", "[walls
     double const slips = belt / (3 * mu * g);
     while (sim.time() < 0.5 * slips) sim.step_with_energy();
     CHECK_THAT(sim.velocity(0)[0], WithinRel(mu * g * sim.time(), 5e-3));
-    // Then it swings in the spring of the contact, by (mu g)^2 / (2 k_s) J: a percent of the speed.
+    // Then it oscillates on the spring of the contact, with (mu g)^2 / (2 k_s) J: one percent of the speed.
     while (sim.time() < 3 * slips) sim.step_with_energy();
     // v = mu g t and r w = 2 v until the point of contact has the belt's speed, v + r w.
     double const t = sim.time() - slips;
@@ -73,7 +73,7 @@ TEST_CASE("a body on a belt slips, and rolls with a third of its speed", "[walls
     CHECK(std::fabs(sim.energy().residual()) < 1e-3 * sim.energy().largest());
 }
 
-TEST_CASE("a body that overlaps a wall, or nearly touches it, at first is at rest there, and touches it at its radius later",
+TEST_CASE("a particle that starts in or near contact with a wall is at rest there, and later touches it at its radius",
           "[walls]") {
     double const kn = 1e4, speed = 0.2, depth = speed / std::sqrt(kn); // m v^2 = k depth^2
     for (double const overlap : {0.005, -0.005})
@@ -121,14 +121,14 @@ TEST_CASE("a servo makes up a fixed share of the missing force in each step", "[
     above_a_wall<plane> s(-1e-4);
     lacuna::simulation<plane> sim(s.body, s.p);
     sim.fix(0);
-    sim.servo_wall(0, {5.0, 2.0, 9.0, 0.25, {}}); // 10 N; there is 1 N to begin with
+    sim.servo_wall(0, {5.0, 2.0, 9.0, 0.25, {}}); // 10 N; at first there is 1 N
     double missing = 9;
     for (int k = 0; k < 40; ++k) {
         sim.step();
         CHECK_THAT(sim.walls().force(0)[1], WithinAbs(-10 + missing, 1e-9));
         missing *= 0.75;
     }
-    // Told to move, it is free of the servo.
+    // move_wall() ends the servo.
     sim.move_wall(0, along_y(0));
     sim.step();
     double const place = sim.walls().point(0)[1];
@@ -137,7 +137,7 @@ TEST_CASE("a servo makes up a fixed share of the missing force in each step", "[
     CHECK(sim.walls().point(0)[1] == place);
 }
 
-TEST_CASE("a servo without a contact comes at its greatest speed, and stops at the stress", "[walls][servo]") {
+TEST_CASE("a servo without contacts approaches at its largest speed, and stops at the stress", "[walls][servo]") {
     struct damped : plane {
         using damping = lacuna::local_damping;
     };
@@ -159,7 +159,7 @@ TEST_CASE("a servo without a contact comes at its greatest speed, and stops at t
     CHECK_THAT(sim.walls().force(0)[1], WithinRel(-4.0, 1e-3));
     // Each of two contacts of discs and two with walls gives 4 N / k_n.
     CHECK_THAT(sim.walls().point(1)[1], WithinAbs(2.5 - 4 * 4 / 1e4, 1e-5));
-    // Pushed from below it gives way and holds the force, but for what makes it move: v dt k_n / relaxation.
+    // Pushed from below it recedes and holds the force, except for the part that moves it: v dt k_n / relaxation.
     sim.move_wall(0, along_y(0.01), 1.0);
     while (sim.time() < 30) sim.step_with_energy();
     CHECK_THAT(sim.walls().velocity(1)[1], WithinAbs(0.01, 1e-4));

@@ -45,7 +45,7 @@ simulation_parameters<porous> bonded(double kn, double ks) {
 
 double noise(std::size_t k, int salt) { return std::sin(12.9898 * double(k) + 78.233 * salt); }
 
-/// Spheres in a cubic lattice that is a little disturbed, bonded where they nearly touch.
+/// Spheres in a slightly disturbed cubic lattice, bonded if they nearly touch.
 packing<double, 3> cluster(int n, double disturbance) {
     packing<double, 3> p;
     for (int i = 0; i < n; ++i)
@@ -68,7 +68,7 @@ void fill(simulation<Model>& sim, double pressure = 0) {
     });
 }
 
-/// A free cluster, torn apart by its own motion, sheared along cracks, full of flowing fluid.
+/// A free cluster with flowing fluid that its own motion tears apart and shears along cracks.
 template <class Model>
 simulation<Model> torn(int threads = 1) {
     auto const spheres = cluster(5, 0.03);
@@ -109,7 +109,7 @@ TEMPLATE_TEST_CASE("a wet cluster of spheres that is torn: ledger, momenta, mass
     int const steps = 200;
     double missing = 0, gross = 0;
     struct scratch_file {
-        // Both models' tests may run at the same time.
+        // Tests of both models may run at the same time.
         std::string path = "wet_space_" + std::to_string(std::is_same_v<TestType, wet_implicit>) + ".bin";
         ~scratch_file() { std::remove(path.c_str()); }
     } const file;
@@ -131,7 +131,7 @@ TEMPLATE_TEST_CASE("a wet cluster of spheres that is torn: ledger, momenta, mass
     double scale = 0;
     for (std::size_t k = 0; k < sim.size(); ++k) scale += sim.mass(k) * norm(sim.velocity(k));
     REQUIRE_THAT(norm(setups::momentum(sim) - linear), WithinAbs(0, 1e-13 * scale));
-    // Velocities are those of half a step before the positions: a force F shifts x x v by (F x v) dt / 2 at both ends.
+    // Velocities hold half a step before the positions: a force F shifts x x v by (F x v) dt / 2 at both ends.
     REQUIRE_THAT(norm(setups::angular_momentum(sim) - angular), WithinAbs(0, 1e-11 * 5 * scale));
 
     auto resumed = torn<TestType>();
@@ -143,7 +143,7 @@ TEMPLATE_TEST_CASE("a wet cluster of spheres that is torn: ledger, momenta, mass
     REQUIRE(state_hash(threaded) == state_hash(sim));
 }
 
-TEST_CASE("uniform pressure and the load that balances it leave a body of spheres at rest") {
+TEST_CASE("uniform pressure and the load that balances it leave a packing of spheres at rest") {
     auto const spheres = cluster(4, 0.03);
     auto p = bonded(1e4, 5e3);
     p.flow.bulk_modulus = 1e4;
@@ -176,14 +176,14 @@ TEST_CASE("uniform pressure and the load that balances it leave a body of sphere
         sim.apply(k, slope * -pressure);
         ++loaded;
     }
-    REQUIRE(loaded == 56); // all but the 2 x 2 x 2 within
+    REQUIRE(loaded == 56); // all but the inner 2 x 2 x 2
     sim.run(500);
     double const stored = 0.5 * pressure * pressure / p.flow.bulk_modulus * 14;
     REQUIRE(sim.kinetic_energy() < 1e-12 * stored);
     for (double const q : sim.flow().network().pressure) REQUIRE_THAT(q, WithinRel(pressure, 1e-6));
 }
 
-TEST_CASE("undrained spheres: the bound of the step lies below the step that is stable") {
+TEST_CASE("undrained spheres: the bound of the step lies below the largest stable step") {
     auto const spheres = cluster(4, 0);
     auto const grows = [&](double share, double& bound) {
         auto p = bonded(1, 0.5);
@@ -210,16 +210,16 @@ TEST_CASE("undrained spheres: the bound of the step lies below the step that is 
     };
     double bound = 0;
     REQUIRE_FALSE(grows(0.999, bound));
-    // Dry it would be 2 / sqrt(20 k_s) and more: the fluid counts.
+    // Without fluid it would be at least 2 / sqrt(20 k_s): the fluid has an effect.
     REQUIRE(bound < 2 / std::sqrt(10.0));
-    // The bound is not far off.
+    // The bound is close.
     REQUIRE(grows(2, bound));
 }
 
 TEST_CASE("Terzaghi's column in space") {
     // A column of cubes, one wide, each cut into the six tetrahedra 0, e_a, e_a + e_b, (1, 1, 1): with throats of one
-    // conductance C two ways of two throats in a row lead through a cube, and one each to the next: K = 2 C / 3 d.
-    // Four rows of springs carry it: M = 4 k_n / d. Grains are rigid: S = 1 / M + phi / K_f, phi = 1 - pi / 6.
+    // conductance C two paths of two throats in series lead through a cube, and one throat each to the next: K = 2 C /
+    // 3 d. Four rows of springs carry it: M = 4 k_n / d. Grains are rigid: S = 1 / M + phi / K_f, phi = 1 - pi / 6.
     int const layers = 12;
     packing<double, 3> spheres;
     for (int z = 0; z <= layers; ++z)
@@ -242,7 +242,7 @@ TEST_CASE("Terzaghi's column in space") {
         bool const base = spheres.position[k][2] < 0.5;
         sim.fix(k, {.x = true, .y = true, .z = base, .rotation = true});
     }
-    // The mesh is made of the spheres' places in the simulation's own order.
+    // The mesh uses the positions of the spheres in the simulation's own order.
     sim.fill_pores([&](points_view<double, 3> points, double const* radii) {
         auto const at = [&](int x, int y, int z) {
             for (std::size_t k = 0; k < points.size(); ++k)
@@ -266,7 +266,7 @@ TEST_CASE("Terzaghi's column in space") {
         detail::connect(mesh);
         auto net = make_pore_network(mesh, points, radii,
                                      flow_boundaries(reservoir("top", on_side{body_side::front}, 0.0)));
-        // They reach to the surface alone, half as far as to a next cube.
+        // They reach only to the surface, half as far as to the next cube.
         for (std::size_t t = net.interior_throats; t < net.open_throats(); ++t) net.length[t] *= 0.5;
         return net;
     });
