@@ -131,10 +131,10 @@ public:
     }
     /// \}
 
-    /// \name Actions on walls, by their number in simulation_parameters::walls; see walls() for their positions and
-    /// forces
-    /// \{ Moves a wall. Its velocity changes linearly from its present value to `v` within `ramp_time` from now. The
-    /// ledger counts the work of the wall as work of prescribed motion.
+    /// \name Actions on walls, by their number in simulation_parameters::walls; walls() has positions and forces
+    /// \{
+    /// Moves a wall. Its velocity changes linearly from its present value to `v` within `ramp_time` from now. The ledger
+    /// counts the work of the wall as work of prescribed motion.
     /// \param v m/s
     /// \param ramp_time s; 0: at once
     void move_wall(std::size_t w, point const& v, double ramp_time = 0) {

@@ -135,7 +135,7 @@ TEST_CASE("an inverted pore stops the run") {
         // 2e-6 m at 1e-8 m per step; pores are checked at least every 64 steps.
         REQUIRE(e.step() >= 199);
         REQUIRE(e.step() < 199 + 64);
-        REQUIRE_THAT(e.what(), contains_text("pore 0 between particles") && contains_text("turned over") &&
+        REQUIRE_THAT(e.what(), contains_text("pore 0 between particles") && contains_text("is inverted") &&
                                    contains_text("step " + std::to_string(e.step())));
     }
 }

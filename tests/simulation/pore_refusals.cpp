@@ -181,7 +181,7 @@ TEST_CASE("a run that moves all particles onto a line ends at the next mesh, and
         INFO(bad.what());
         CHECK(bad.step() > 200);
         CHECK(bad.step() < 400);
-        CHECK_THAT(bad.what(), contains_text("pores made anew after step ") && contains_text("number of pores = 0") &&
+        CHECK_THAT(bad.what(), contains_text("new mesh of the pores after step ") && contains_text("number of pores = 0") &&
                                    contains_text("from particle 1 at (0, 0) m to particle 0 at ("));
     }
 }

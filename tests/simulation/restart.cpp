@@ -280,7 +280,7 @@ TEST_CASE("particles, bonds and pores that differ are named", "[checkpoint][refu
                contains_text("other particles: particles.mass[3] = "));
     CHECK_THAT(after([](auto& q) { q.add({5, 5}, 0.5); }), contains_text("particles.radius = 6 entries, here 7 entries"));
     CHECK_THAT(after([](auto& q) { q.bonds[1] = {1, 4}; }), contains_text("other bonds: bonds[1][1] = 2, here 4"));
-    CHECK_THAT(after([](auto& q) { q.position[3][0] += 1e-12; }), contains_text("particles at other places"));
+    CHECK_THAT(after([](auto& q) { q.position[3][0] += 1e-12; }), contains_text("particles at other positions"));
     CHECK(after([](auto&) {}) == "accepted");
 
     auto const with_pores = [&](auto const& rule, double pressure) {

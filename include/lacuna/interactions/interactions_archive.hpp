@@ -59,7 +59,7 @@ private:
         }
         std::vector<typename Interactions::bond_entry> left;
         for (auto const b : bonds) {
-            require_state(b >= 0 && std::size_t(b) < records.size(), "a bond that there is not");
+            require_state(b >= 0 && std::size_t(b) < records.size(), "a bond that does not exist");
             auto const& ids = records[std::size_t(b)].particles;
             auto i = store.internal(std::size_t(ids[0])), j = store.internal(std::size_t(ids[1]));
             if (i > j) std::swap(i, j);

@@ -252,7 +252,7 @@ public:
     void archive(Archive& ar, particle_store<Real, Dim> const& store) {
         ar(near_, fixed_length{force_}, fixed_length{motion_}, reach_, fixed_length{path_}, fixed_length{room_}, walls_path_);
         for (auto const& n : near_)
-            require_state(n.plane < walls_.size() && n.particle < store.size(), "a wall or its particle is none");
+            require_state(n.plane < walls_.size() && n.particle < store.size(), "a contact of a wall or particle that does not exist");
     }
 
 private:

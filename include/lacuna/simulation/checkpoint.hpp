@@ -95,14 +95,14 @@ struct given_values {
         if (auto const d = first_difference(saved.settings, settings, "")) return message("settings", *d);
         if (auto const d = first_difference(saved.particles, particles, "particles")) return message("particles", *d);
         if (auto const d = first_difference(saved.bonds, bonds, "bonds")) return message("bonds", *d);
-        if (saved.set_up.positions != set_up.positions) return "it was made with particles at other places";
+        if (saved.set_up.positions != set_up.positions) return "it was made with particles at other positions";
         if (saved.numbering != numbering) return "it was written by a version that numbers particles in another way";
         if (saved.set_up.pores != set_up.pores) return "it was made with other pores";
         if (saved.set_up.fluid != set_up.fluid) return "its pores were filled with other pressures or sources";
         for (std::size_t kind = 0; kind < set_up_kinds; ++kind)
             if (set_up.was_called(lacuna::set_up(kind)) && saved.set_up.result[kind] != set_up.result[kind])
                 return "it was made with other " + std::string(set_up_names[kind]) +
-                       " than were given before load_checkpoint(): give these after it, from there on they hold";
+                       " than were given before load_checkpoint(): give them after it, they take effect from there on";
         return {};
     }
 };

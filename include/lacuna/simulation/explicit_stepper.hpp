@@ -23,8 +23,9 @@ LACUNA_BEGIN_PACKS
 /// \code
 /// explicit_stepper<Model>(state, clock).template step<WithEnergy>();
 /// \endcode
-/// Most of a model's code is in step(), and in step_clock's resolve() and limits(). A program of several files compiles it once
-/// by `extern template` of these three; see examples/cartilage/run/cartilage_model.hpp.
+///
+/// Most of a model's code is in step() and in resolve() and limits() of step_clock. A program of several files can compile
+/// these three once, with `extern template`; see examples/cartilage/run/cartilage_model.hpp.
 template <class Model>
 class explicit_stepper {
 public:
@@ -32,7 +33,7 @@ public:
     using real = typename Model::real;
     static constexpr int dim = Model::dim;
 
-    /// \param clock whose time step is resolved
+    /// \param clock its time step must be resolved
     explicit_stepper(state_type& state, step_clock<Model>& clock) : s_(state), clock_(clock) {}
 
     /// Makes one step.
@@ -238,7 +239,7 @@ private:
     bool other_forces_act_ = false, velocities_on_time_ = false;
     std::int32_t fastest_given_ = -1; // fastest particle that was given a velocity since the last step; -1: none
 };
-// Outside the class: else each file that includes this compiles it, `extern template` or not.
+// Outside the class, because each file would compile an inline member in spite of `extern template`.
 template <class Model>
 template <bool WithEnergy>
 void explicit_stepper<Model>::step() {

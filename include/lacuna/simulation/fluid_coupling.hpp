@@ -115,7 +115,7 @@ public:
     void archive(Archive& ar, store_type const& store) {
         bool filled = flow_.has_value();
         ar(filled);
-        require_state(filled == flow_.has_value(), "its pores are filled and these are not, or the other way round");
+        require_state(filled == flow_.has_value(), "its pores are filled and those of this simulation are not, or vice versa");
         if constexpr (has_fluid<Model>) {
             if (remesher_.on()) remesher_.archive(ar, *flow_, store.radii().data());
             if (filled) ar(*flow_);
@@ -138,7 +138,7 @@ private:
             return by_id(store, [&] { return remesher_.remesh(*flow_, store.positions(), store.radii().data(), pairs, number); });
         } catch (std::invalid_argument const& why) {
             // The cause is the run, not the input.
-            throw unstable_run("pores made anew after step " + std::to_string(number) + ": " + why.what(), number, -1);
+            throw unstable_run("new mesh of the pores after step " + std::to_string(number) + ": " + why.what(), number, -1);
         }
     }
 

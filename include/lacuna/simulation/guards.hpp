@@ -83,7 +83,7 @@ largest_motion<Real> checked_motion(particle_store<Real, Dim> const& store, std:
         for (std::size_t k = 0; k < store.size(); ++k)
             if (Real const own = norm(store.spin(k)) * time_step; own > most)
                 throw_unstable(store, now, std::int32_t(k),
-                               "it turned by " + to_text(double(own)) + " rad in one step (limit " + to_text(10 * limit) + ")",
+                               "it rotated by " + to_text(double(own)) + " rad in one step (limit " + to_text(10 * limit) + ")",
                                cause(std::int32_t(k)));
     return moved;
 }
@@ -98,7 +98,7 @@ std::int32_t fastest_particle(particle_store<Real, Dim> const& store) noexcept {
 }
 
 /// Text about growing speeds for the messages of unstable_run.
-inline std::string growth_text() { return "the speeds grow fourfold in every 16 steps and turn round in nearly every step"; }
+inline std::string growth_text() { return "the speeds grow fourfold in every 16 steps and reverse in nearly every step"; }
 
 /// \throws unstable_run if growth_watch finds that energy runs away
 template <class Real, int Dim>
@@ -119,7 +119,7 @@ void check_energy(particle_store<Real, Dim> const& store, energy_ledger const& l
     if (double const residual = ledger.residual(); residual > 0.5 * ledger.largest() && residual > rounding)
         throw_unstable(store, now, fastest_particle(store),
                        "it is the fastest, and " + to_text(residual) + " J of at most " + to_text(ledger.largest()) +
-                           " J have come from nowhere",
+                           " J have no source",
                        "energy runs away: the time step is above the stable one, or a law makes energy");
 }
 
@@ -158,7 +158,7 @@ std::string crushed_bond([[maybe_unused]] particle_store<Real, Dim> const& store
             auto const ids = std::minmax({store.id(i), store.id(j)}); // by value
             return "bond " + std::to_string(bonds.label(s)) + " between particles " + std::to_string(ids.first) + " and " +
                    std::to_string(ids.second) + " is crushed: at its limit, " + to_text(double(limit)) +
-                   " N in compression, it gives way without end";
+                   " N in compression, it yields without limit";
         }
     }
     return "";
@@ -180,7 +180,7 @@ std::string bond_between(particle_store<Real, Dim> const& store, Interactions co
             Real const limit = Law::template compressive_limit<Dim>(row, store.radius(std::size_t(i)), store.radius(std::size_t(j)));
             if (double(limit) < 1e20)
                 return text + "is crushed: at its limit, " + to_text(double(limit)) +
-                       " N in compression, it gives way without end; a greater strength, a smaller load, or a law of bonds "
+                       " N in compression, it yields without limit; a greater strength, a smaller load, or a law of bonds "
                        "that does not yield in compression";
         }
         return text + "is compressed by more than it can bear: the load is too high for its stiffness";
@@ -204,11 +204,12 @@ void check_pores(particle_store<Real, Dim> const& store, pore_network<Real, Dim>
         if (size > (Dim == 2 ? Real(0) : Real(-0.1) * net.size[p])) continue;
         std::string who;
         for (auto const k : corners) who += " " + std::to_string(store.id(std::size_t(k)));
-        std::string cause = "particles have passed each other: the deformation is too large for the pores of the start; " +
-                            std::string(Dim == 2 ? "remeshing makes new ones" : "in space there is no remeshing");
+        std::string cause = "particles have passed each other: the deformation is too large for the initial mesh of the "
+                            "pores; " +
+                            std::string(Dim == 2 ? "remeshing makes a new mesh" : "in 3D there is no remeshing");
         if (std::string const bond = crushed(); !bond.empty()) cause += "; " + bond;
         throw_unstable(store, now, corners[0],
-                       "pore " + std::to_string(p) + " between particles" + who + " is turned over, its " +
+                       "pore " + std::to_string(p) + " between particles" + who + " is inverted: its " +
                            (Dim == 2 ? "area" : "volume") + " is " + to_text(double(size)) +
                            (Dim == 2 ? " m^2" : " m^3"),
                        cause);

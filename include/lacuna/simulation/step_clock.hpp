@@ -147,7 +147,7 @@ private:
     }
     void change_step(state_type const& s, double step) {
         if (!is_step(step))
-            throw_unstable(s.store, now(), -1, "no time step is short enough any more",
+            throw_unstable(s.store, now(), -1, "no time step is stable any more",
                            "a stiffness, a mass, a damping or a speed has left the range of " + precision_text<real>());
         epoch_ = {time(), step_};
         time_step_ = step;
@@ -174,8 +174,8 @@ private:
             throw_unstable(s.store, now(), -1,
                            "the time step of " + to_text(*time_step_) + " s is above the stable limit, which is " +
                                to_text(found.rigorous) + " s by now",
-                           "contacts have formed or become stiffer, bonds have failed, or supports were freed: a step that is not given follows "
-                           "the limit; allow_unstable_step goes on without");
+                           "contacts have formed or become stiffer, bonds have failed, or supports were released; without a "
+                           "given time_step the step follows the limit; allow_unstable_step ignores the limit");
         looked(s, assumed, found.rigorous);
     }
     void follow_critical_step(state_type& s, double speed) {
@@ -210,8 +210,8 @@ private:
                 throw_unstable(s.store, now(), -1,
                                "the flow between pores allows a time step of at most " + to_text(limit) +
                                    " s by now, less than " + to_text(*time_step_) + " s",
-                               "throats have opened or pores become small; flow.substeps = 0 takes as many flow steps as "
-                               "are safe, implicit flow has no limit");
+                               "throats have opened or pores have become small; flow.substeps = 0 makes as many flow "
+                               "steps as are safe, implicit flow has no limit");
             change_step(s, s.settings.safety * limits(s).critical());
         }
     }
