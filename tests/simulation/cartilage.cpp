@@ -29,7 +29,7 @@ struct outcome {
     double highest_pressure;
 };
 
-struct energy_kept {
+struct with_energy {
     static constexpr stage stages = stage::end;
     static constexpr bool needs_energy = true;
     template <class Simulation>
@@ -41,7 +41,7 @@ outcome coupled_run(cartilage_specimen<double> const& s, double load_MPa, long l
     simulation<specimens::wet> sim(s.discs, specimens::parameters(s));
     cartilage::set_up(sim, s, load_MPa * 1e6, {});
     crack_record<break_event<2>> cracks;
-    sim.run(steps, cracks, energy_kept{});
+    sim.run(steps, cracks, with_energy{});
     double highest = 0;
     for (std::size_t p = 0; p < sim.flow().network().pores(); ++p)
         highest = std::max(highest, std::fabs(sim.flow().network().pressure[p]));
@@ -86,7 +86,7 @@ TEST_CASE("the energy of a coupled run with flowing water adds up, and so do its
     auto const s = specimens::small();
     auto sim = specimens::make(s, 1, 150);
     crack_record<break_event<2>> cracks;
-    sim.run(3000, cracks, energy_kept{});
+    sim.run(3000, cracks, with_energy{});
     auto const& e = sim.energy();
     REQUIRE(cracks.events().size() > 0);
     INFO("kinetic " << e.kinetic << " rotation " << e.rotation << " strain " << e.strain << " in bonds " << e.bond_strain

@@ -67,7 +67,7 @@ struct space_viscous_in_single : lacuna::default_model<3, float> {
 /// Discs or spheres with random velocities between a rising floor and a ceiling under constant stress, half of them
 /// bonded. Some loads still rise, one is constant.
 template <class Model>
-lacuna::simulation<Model> lively(int threads = 1) {
+lacuna::simulation<Model> moving_crowd(int threads = 1) {
     constexpr int dim = Model::dim;
     using real = typename Model::real;
     lacuna::packing<real, dim> packing;
@@ -122,18 +122,18 @@ void check_resumed() {
     constexpr int dim = Model::dim;
     using record = lacuna::crack_record<lacuna::break_event<dim>>;
     scratch_file const file("lively" + std::to_string(dim));
-    auto whole = lively<Model>();
+    auto whole = moving_crowd<Model>();
     record all;
     whole.run(120, all, energy_watch{});
     REQUIRE(all.events().size() > 5);
     REQUIRE(whole.pairs().neighbors().build_count() > 3);
     for (long long const at : {0, 1, 50, 119}) {
-        auto first = lively<Model>();
+        auto first = moving_crowd<Model>();
         record seen;
         if (at > 0) first.run(120, seen, energy_watch{}, stop_after{at});
         if (at == 50) first.set_velocity(3, first.velocity(3)); // pending at the moment of saving
         lacuna::save_checkpoint(file.path, first, seen);
-        auto second = lively<Model>(at == 1 && dim == 2 ? 2 : 1);
+        auto second = moving_crowd<Model>(at == 1 && dim == 2 ? 2 : 1);
         record resumed;
         lacuna::load_checkpoint(file.path, second, resumed);
         REQUIRE(lacuna::state_hash(second) == lacuna::state_hash(first));
@@ -218,16 +218,16 @@ TEST_CASE("a damaged or foreign checkpoint is refused, and nothing changes", "[c
     auto const before = lacuna::state_hash(other);
     auto const attempt = [&](std::string const& bytes) {
         write_all(file.path, bytes);
-        std::string const said = why([&] { lacuna::load_checkpoint(file.path, other, cracks); });
+        std::string const message = why([&] { lacuna::load_checkpoint(file.path, other, cracks); });
         if (lacuna::state_hash(other) != before) return std::string("it has changed");
-        return said;
+        return message;
     };
     SECTION("truncated anywhere") {
         for (std::size_t length = 0; length < sound.size(); ++length) {
-            std::string const said = why([&] { (void)lacuna::unpack_checkpoint(sound.substr(0, length), "name"); });
+            std::string const message = why([&] { (void)lacuna::unpack_checkpoint(sound.substr(0, length), "name"); });
             INFO(length);
-            REQUIRE_THAT(said, contains_text("checkpoint name: "));
-            REQUIRE_THAT(said, contains_text(length < 8 ? "not a checkpoint" : "truncated"));
+            REQUIRE_THAT(message, contains_text("checkpoint name: "));
+            REQUIRE_THAT(message, contains_text(length < 8 ? "not a checkpoint" : "truncated"));
         }
         REQUIRE_THAT(attempt(sound.substr(0, sound.size() / 2)), contains_text(file.path) && contains_text("truncated"));
     }
@@ -339,21 +339,21 @@ TEST_CASE("a series of frames is that of the uninterrupted run, whether the chec
     REQUIRE(listed(expected.at("run-particles.pvd")) == 11);
     REQUIRE(listed(expected.at("run-bonds.pvd")) == 11);
     scratch_file const file("series");
-    for (bool const kept : {false, true})
+    for (bool const saved : {false, true})
         for (long long const at : {50, 53}) {
             // The first part continues for a while after its checkpoint, like a run that is killed.
             {
                 auto sim = make();
                 lacuna::vtk_series<> frames(parts.path + "/run", 10);
                 auto const run = [&](auto const& checkpoints) { sim.run(70, frames, checkpoints); };
-                if (kept)
+                if (saved)
                     run(lacuna::checkpoint_every(at, file.path, frames));
                 else
                     run(lacuna::checkpoint_every(at, file.path));
             }
             auto sim = make();
             lacuna::vtk_series<> frames(parts.path + "/run", 10);
-            if (kept)
+            if (saved)
                 lacuna::load_checkpoint(file.path, sim, frames);
             else
                 lacuna::load_checkpoint(file.path, sim);
@@ -361,7 +361,7 @@ TEST_CASE("a series of frames is that of the uninterrupted run, whether the chec
             sim.run(100 - at, frames);
             REQUIRE(files(parts.path) == expected);
             // Back to the checkpoint in the same process.
-            if (kept)
+            if (saved)
                 lacuna::load_checkpoint(file.path, sim, frames);
             else
                 lacuna::load_checkpoint(file.path, sim);

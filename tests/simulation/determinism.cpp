@@ -33,7 +33,7 @@ struct outcome {
     std::vector<lacuna::vec<double, 2>> position, velocity;
     std::vector<double> spin;
     std::vector<lacuna::break_event<2>> events;
-    bool streams = false; ///< whether forces were discarded once they were summed up
+    bool discards_forces = false; ///< whether forces were discarded once they were summed up
     int spans = 0;
 };
 
@@ -58,7 +58,7 @@ outcome play(lacuna::packing<typename Model::real, 2> const& packing, int thread
         run.step();
         o.events.insert(o.events.end(), run.events().begin(), run.events().end());
     }
-    o.streams = run.pairs().forces_are_transient();
+    o.discards_forces = run.pairs().forces_are_transient();
     o.spans = run.pairs().spans().count();
     for (std::size_t k = 0; k < run.size(); ++k) {
         o.position.push_back(run.position(k));
@@ -106,17 +106,17 @@ TEST_CASE("the same bits whether pair forces are stored or not", "[determinism]"
     auto const [side, threads] = GENERATE(table<int, int>({{24, 1}, {80, 1}, {80, 2}}));
     bool const wall = GENERATE(false, true), tethers = GENERATE(false, true);
     CAPTURE(side, threads, wall, tethers);
-    auto const kept = play<plane>(sheet<double>(side, tethers), 1, wall, itself, true);
-    auto const forgotten = play<plane>(sheet<double>(side, tethers), threads, wall, itself, false);
-    REQUIRE(kept.events.size() > 20);
-    REQUIRE(!kept.streams);
-    REQUIRE(forgotten.streams);
-    REQUIRE(forgotten.spans == threads);
-    REQUIRE(forgotten.position == kept.position);
-    REQUIRE(forgotten.velocity == kept.velocity);
-    REQUIRE(forgotten.spin == kept.spin);
-    REQUIRE(forgotten.events.size() == kept.events.size());
-    REQUIRE(std::equal(forgotten.events.begin(), forgotten.events.end(), kept.events.begin(), same));
+    auto const stored = play<plane>(sheet<double>(side, tethers), 1, wall, itself, true);
+    auto const discarded = play<plane>(sheet<double>(side, tethers), threads, wall, itself, false);
+    REQUIRE(stored.events.size() > 20);
+    REQUIRE(!stored.discards_forces);
+    REQUIRE(discarded.discards_forces);
+    REQUIRE(discarded.spans == threads);
+    REQUIRE(discarded.position == stored.position);
+    REQUIRE(discarded.velocity == stored.velocity);
+    REQUIRE(discarded.spin == stored.spin);
+    REQUIRE(discarded.events.size() == stored.events.size());
+    REQUIRE(std::equal(discarded.events.begin(), discarded.events.end(), stored.events.begin(), same));
 }
 
 TEST_CASE("the same bits for any order of particles and bonds in the input", "[determinism]") {

@@ -63,10 +63,10 @@ TEST_CASE("a prescribed velocity rises linearly, and its work is in the ledger",
     // v t^2 / (2 ramp) at half the ramp
     REQUIRE_THAT(sim.position(1)[0] - 1, WithinRel(0.02 * 0.25 * 0.25 / (2 * 0.5), 1e-9));
     for (int step = 0; step < 550; ++step) sim.step_with_energy();
-    double const way = 0.02 * 0.5 / 2 + 0.02 * 0.3;
-    REQUIRE_THAT(sim.position(1)[0] - 1, WithinRel(way, 1e-9));
+    double const path = 0.02 * 0.5 / 2 + 0.02 * 0.3;
+    REQUIRE_THAT(sim.position(1)[0] - 1, WithinRel(path, 1e-9));
     REQUIRE_THAT(sim.velocity(1)[0], WithinRel(0.02, 1e-12));
-    double const stretched = way - 0.02 * p.time_step; // energies belong to the last forces
+    double const stretched = path - 0.02 * p.time_step; // energies belong to the last forces
     REQUIRE_THAT(sim.energy().strain, WithinRel(0.5 * 1e4 * stretched * stretched, 1e-6));
     REQUIRE_THAT(sim.energy().residual(), WithinAbs(0, 1e-9 * sim.energy().largest()));
 }

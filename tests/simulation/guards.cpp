@@ -14,7 +14,7 @@ namespace {
 
 /// Message of a run that a guard stops; "" if none does.
 template <class Model>
-std::string said(lacuna::simulation<Model>& run, int steps) {
+std::string stop_message(lacuna::simulation<Model>& run, int steps) {
     try {
         for (int n = 0; n < steps; ++n) run.step_with_energy();
     } catch (lacuna::unstable_run const& e) {
@@ -53,7 +53,7 @@ TEST_CASE("a squeezed row of discs buckles at its growth rate", "[guards]") {
     }
     REQUIRE_THAT(std::log(last / first) / (to - from), WithinRel(rate, 0.01));
     REQUIRE(std::fabs(amplitude()) >= 0.05);
-    REQUIRE(said(run, 100).empty());
+    REQUIRE(stop_message(run, 100).empty());
     REQUIRE(std::fabs(run.energy().residual()) < 1e-2 * run.energy().largest());
 }
 
@@ -65,11 +65,11 @@ TEST_CASE("an energy that is not a number ends a run", "[guards]") {
     row.bonds = {{0, 1}, {1, 2}};
     auto p = springs<single>(1e6, 1e6);
     lacuna::simulation<single> sound(row, p);
-    REQUIRE(said(sound, 1).empty());
+    REQUIRE(stop_message(sound, 1).empty());
     p.bonds.resize(2);
     p.bonds[0].normal_stiffness = 1e-40;
     lacuna::simulation<single> run(row, p);
-    REQUIRE_THAT(said(run, 1), contains_text("an energy is not a number") && contains_text("single precision"));
+    REQUIRE_THAT(stop_message(run, 1), contains_text("an energy is not a number") && contains_text("single precision"));
 }
 
 TEST_CASE("a bound of zero is no time step", "[guards]") {
@@ -214,14 +214,15 @@ TEST_CASE("with allow_unstable_step only the consequences of an unstable step en
     {
         lacuna::simulation<plane> run(chain<2>(2), p);
         run.set_velocity(0, {1e-12, 0});
-        REQUIRE_THAT(said(run, 10000), contains_text("of its radius in one step") && contains_text("reverse in nearly every step") &&
-                                           contains_text("the time step is above the stable one"));
+        REQUIRE_THAT(stop_message(run, 10000), contains_text("of its radius in one step") &&
+                                                   contains_text("reverse in nearly every step") &&
+                                                   contains_text("the time step is above the stable one"));
         REQUIRE(run.steps() > 100);
     }
     p.guards.motion = false;
     lacuna::simulation<plane> run(chain<2>(2), p);
     run.set_velocity(0, {1e-12, 0});
-    REQUIRE(said(run, 300).empty());
+    REQUIRE(stop_message(run, 300).empty());
     REQUIRE(run.kinetic_energy() > 1);
 }
 
@@ -243,7 +244,7 @@ TEST_CASE("messages name the overlapping particles and a bond that yields", "[gu
         lacuna::simulation<plane> run(chain<2>(2), parameters);
         run.fix(0);
         run.apply(1, {-1.5e4, 0}, 0, 1);
-        return said(run, 3000);
+        return stop_message(run, 3000);
     };
     SECTION("bonds between discs that overlap by a radius from the start") {
         lacuna::packing<double, 2> two;
@@ -253,7 +254,7 @@ TEST_CASE("messages name the overlapping particles and a bond that yields", "[gu
         lacuna::simulation<plane> run(two, p);
         run.fix(0);
         run.apply(1, {-100, 0}, 0, 1);
-        REQUIRE(said(run, 300).empty());
+        REQUIRE(stop_message(run, 300).empty());
         REQUIRE(run.position(1)[0] < 0.49999);
     }
     SECTION("a crushed bond") {
@@ -275,8 +276,9 @@ TEST_CASE("messages name the overlapping particles and a bond that yields", "[gu
         lacuna::simulation<plane> run(chain<2>(2, false), q);
         run.fix(0);
         run.apply(1, {-1e6, 0}, 0, 1);
-        REQUIRE_THAT(said(run, 3000), contains_text("it overlaps another particle by more than a radius: particle") &&
-                                          contains_text("of the smaller radius") && contains_text("contact stiffness"));
+        REQUIRE_THAT(stop_message(run, 3000),
+                     contains_text("it overlaps another particle by more than a radius: particle") &&
+                         contains_text("of the smaller radius") && contains_text("contact stiffness"));
     }
     SECTION("bonds that overlapped at the start are allowed") {
         lacuna::packing<double, 2> two;
@@ -285,7 +287,7 @@ TEST_CASE("messages name the overlapping particles and a bond that yields", "[gu
         two.bonds = {{0, 1}};
         lacuna::simulation<plane> run(two, springs<plane>(1, 0, 0, unit_density(2)));
         run.set_velocity(0, {0.01, 0});
-        REQUIRE(said(run, 500).empty());
+        REQUIRE(stop_message(run, 500).empty());
     }
 }
 
@@ -294,17 +296,17 @@ TEST_CASE("messages name the reason why a particle is fast", "[guards]") {
     p.time_step = 0.1;
     lacuna::simulation<plane> given(chain<2>(3, false), p);
     given.set_velocity(1, {0, 0.6});
-    CHECK_THAT(said(given, 1), contains_text("likely cause: the velocity that it was given"));
+    CHECK_THAT(stop_message(given, 1), contains_text("likely cause: the velocity that it was given"));
     lacuna::simulation<plane> moved(chain<2>(3, false), p);
     moved.prescribe_velocity(1, {0, 0.6}, 5);
-    CHECK_THAT(said(moved, 100), contains_text("likely cause: the velocity that is prescribed to it"));
+    CHECK_THAT(stop_message(moved, 100), contains_text("likely cause: the velocity that is prescribed to it"));
     lacuna::simulation<plane> loaded(chain<2>(3, false), p);
     loaded.apply(1, {0, 6});
-    CHECK_THAT(said(loaded, 5), contains_text("the load on it, (0, 6) N, is large for its mass"));
+    CHECK_THAT(stop_message(loaded, 5), contains_text("the load on it, (0, 6) N, is large for its mass"));
     lacuna::packing<double, 2> close;
     close.add({0, 0}, 0.5);
     close.add({0.6, 0}, 0.5);
     auto q = springs<plane>(100, 0, 0, unit_density(2));
     lacuna::simulation<plane> pressed(close, q);
-    CHECK_THAT(said(pressed, 100), contains_text("overlap at the start") && contains_text("0 and 1"));
+    CHECK_THAT(stop_message(pressed, 100), contains_text("overlap at the start") && contains_text("0 and 1"));
 }

@@ -149,9 +149,9 @@ TEST_CASE("a bond that fails in shear under compression leaves a Hertzian contac
     for (double const distance : {0.199, 0.2, 0.201})
         for (double const force : {-1e-3, -0.5, -7.0}) {
             lacuna::pair_motion<double, 2> const still{distance, 0.1, 0.1, {0}, 0};
-            auto const kept = law::evaluate(p, still, law::hand_over(p, still, force, {0.2 * force}));
-            REQUIRE_THAT(kept.normal_force, WithinRel(force, 1e-9));
-            REQUIRE_THAT(kept.shear_force[0], WithinRel(0.2 * force, 1e-9));
+            auto const handed_over = law::evaluate(p, still, law::hand_over(p, still, force, {0.2 * force}));
+            REQUIRE_THAT(handed_over.normal_force, WithinRel(force, 1e-9));
+            REQUIRE_THAT(handed_over.shear_force[0], WithinRel(0.2 * force, 1e-9));
         }
     // Without compression there is no friction.
     lacuna::pair_motion<double, 2> const apart{0.201, 0.1, 0.1, {0}, 0};

@@ -38,37 +38,37 @@ std::size_t candidates(lacuna::packing<typename Model::real, Model::dim> const& 
 TEMPLATE_TEST_CASE("a long bond does not widen the search for contacts", "[outliers]", plane, single_plane) {
     using real = typename TestType::real;
     int const side = 30;
-    auto body = square<real>(side);
+    auto particles = square<real>(side);
     auto p = springs<TestType>(1e6, 5e5, 0.2, 2500);
     // Only neighbours in a row or column have a gap below a tenth of the radius: (side - 1) * side pairs of each kind.
     std::size_t const by_hand = 2 * std::size_t(side - 1) * std::size_t(side);
-    CHECK(candidates<TestType>(body, p) == by_hand);
-    body.bonds.push_back({0, side * side - 1});
-    CHECK(candidates<TestType>(body, p) == by_hand);
+    CHECK(candidates<TestType>(particles, p) == by_hand);
+    particles.bonds.push_back({0, side * side - 1});
+    CHECK(candidates<TestType>(particles, p) == by_hand);
     // The diagonal bond is without force at its initial distance, and is no contact.
-    lacuna::simulation<TestType> run(body, p);
+    lacuna::simulation<TestType> run(particles, p);
     CHECK(run.pairs().contacts().size() == by_hand);
     CHECK(run.pairs().bonds().size() == 1);
 }
 
 TEST_CASE("a huge particle does not widen the search or the tolerance of the others", "[outliers]") {
     int const side = 30;
-    auto body = square<double>(side);
+    auto particles = square<double>(side);
     auto p = springs<plane>(1e6, 5e5, 0.2, 2500);
     std::size_t const by_hand = 2 * std::size_t(side - 1) * std::size_t(side);
     // It touches the two discs in the middle of the lowest row, and has a gap of x^2 / 2 R to those at the distance x.
     double const huge = 5000;
-    body.add({side / 2.0, -std::sqrt((huge + 0.5) * (huge + 0.5) - 0.25) + 0.5}, huge);
-    std::size_t const below = candidates<plane>(body, p) - by_hand;
+    particles.add({side / 2.0, -std::sqrt((huge + 0.5) * (huge + 0.5) - 0.25) + 0.5}, huge);
+    std::size_t const below = candidates<plane>(particles, p) - by_hand;
     // Half a skin of its own more than theirs, 0.0375 + 0.025: x^2 / 2 (R + 0.5) below that, x = 0.5, 1.5, ...: all 30
     // discs.
     CHECK(below == 30);
     p.interactions.initial_contact_tolerance = 0.2; // 0.1 for discs, by the smaller radius; 1000 for the huge one alone
-    CHECK(candidates<plane>(body, p) == by_hand + 30);
+    CHECK(candidates<plane>(particles, p) == by_hand + 30);
     p.interactions.initial_contact_tolerance = 0.5; // 0.25: still below the gap of discs across a corner, 0.414
-    CHECK(candidates<plane>(body, p) == by_hand + 30);
+    CHECK(candidates<plane>(particles, p) == by_hand + 30);
     p.interactions.skin = 0; // without a skin only the tolerance is left: x^2 / 2 R <= 0.25, all of them
-    CHECK(candidates<plane>(body, p) == by_hand + 30);
+    CHECK(candidates<plane>(particles, p) == by_hand + 30);
 }
 
 namespace {
@@ -164,7 +164,7 @@ namespace {
 
 /// Discs in frictional contact. Some start with a gap and an individual touching distance; one is fast, one is huge.
 template <class Model>
-lacuna::simulation<Model> crowd(double skin, int threads = 1, bool turned = false) {
+lacuna::simulation<Model> crowd(double skin, int threads = 1, bool reversed = false) {
     using real = typename Model::real;
     auto p = springs<Model>(1000, 500, 0.3, 1.0, 5, 4);
     p.interactions.skin = skin;
@@ -175,19 +175,19 @@ lacuna::simulation<Model> crowd(double skin, int threads = 1, bool turned = fals
     lacuna::packing<real, 2> all;
     if constexpr (Model::domain::periodic) p.domain.period = {60, 0};
     int const columns = 20, rows = 10, n = columns * rows + 2;
-    auto const place = [&](int k) { return turned ? n - 1 - k : k; };
+    auto const index = [&](int k) { return reversed ? n - 1 - k : k; };
     for (int at = 0; at < n; ++at) {
-        int const k = place(at);
+        int const k = index(at);
         if (k == n - 2) all.add({real(-3), real(4.3)}, real(0.4));         // the fast one
         else if (k == n - 1) all.add({real(10), real(-12.52)}, real(12));  // the huge one
         else all.add({real(k % columns * 1.01), real(k / columns * 1.02)}, real(0.5));
     }
-    all.bonds.push_back({place(0), place(columns * rows - 1)}); // a long bond
-    for (int k = 0; k < 60; ++k) all.bonds.push_back({place(3 * k), place(3 * k + 1)});
+    all.bonds.push_back({index(0), index(columns * rows - 1)}); // a long bond
+    for (int k = 0; k < 60; ++k) all.bonds.push_back({index(3 * k), index(3 * k + 1)});
     lacuna::simulation<Model> run(all, p);
     for (int k = 0; k < columns * rows; ++k)
-        run.set_velocity(std::size_t(place(k)), {0.3 * std::sin(3.7 * k), 0.3 * std::cos(2.3 * k)});
-    run.set_velocity(std::size_t(place(n - 2)), {8.0, 0.3});
+        run.set_velocity(std::size_t(index(k)), {0.3 * std::sin(3.7 * k), 0.3 * std::cos(2.3 * k)});
+    run.set_velocity(std::size_t(index(n - 2)), {8.0, 0.3});
     return run;
 }
 
@@ -213,11 +213,11 @@ TEST_CASE("results do not depend on the range of the search", "[outliers][determ
 
 TEMPLATE_TEST_CASE("a crowd with outliers has the same bits with threads and after a restart",
                    "[outliers][determinism][checkpoint]", plane, single_plane, ring) {
-    auto one = crowd<TestType>(0.2), two = crowd<TestType>(0.2, 2), turned = crowd<TestType>(0.2, 1, true);
+    auto one = crowd<TestType>(0.2), two = crowd<TestType>(0.2, 2), reversed = crowd<TestType>(0.2, 1, true);
     auto resumed = crowd<TestType>(0.2);
     std::string const file = "outliers" + std::to_string(sizeof(typename TestType::real)) + std::to_string(TestType::domain::periodic) + ".bin";
     for (int n = 0; n < 900; ++n) {
-        one.step(), two.step(), turned.step();
+        one.step(), two.step(), reversed.step();
         if (n == 400) {
             lacuna::save_checkpoint(file, one);
             lacuna::load_checkpoint(file, resumed);
@@ -229,7 +229,8 @@ TEMPLATE_TEST_CASE("a crowd with outliers has the same bits with threads and aft
     CHECK(lacuna::state_hash(one) == lacuna::state_hash(two));
     CHECK(lacuna::state_hash(one) == lacuna::state_hash(resumed));
     for (std::size_t k = 0; k < one.size(); ++k)
-        for (int axis = 0; axis < 2; ++axis) CHECK(one.position(k)[axis] == turned.position(one.size() - 1 - k)[axis]);
+        for (int axis = 0; axis < 2; ++axis)
+            CHECK(one.position(k)[axis] == reversed.position(one.size() - 1 - k)[axis]);
 }
 
 TEST_CASE("a particle with many more contacts than its neighbours gets the sum of their forces", "[outliers]") {
@@ -253,8 +254,8 @@ TEST_CASE("a particle with many more contacts than its neighbours gets the sum o
 }
 
 TEST_CASE("a fast particle misses no wall, and does not make the walls check all particles", "[outliers][walls]") {
-    auto body = square<double>(20);
-    body.add({-2.0, 25.0}, 0.5);
+    auto particles = square<double>(20);
+    particles.add({-2.0, 25.0}, 0.5);
     auto p = springs<plane>(4e4, 2e4, 0, 1);
     p.time_step = 1e-4;
     for (double const x : {-3.0, 30.0}) {
@@ -264,7 +265,7 @@ TEST_CASE("a fast particle misses no wall, and does not make the walls check all
         w.material = p.materials[0].contact;
         p.walls.push_back(w);
     }
-    lacuna::simulation<plane> run(body, p);
+    lacuna::simulation<plane> run(particles, p);
     run.set_velocity(400, {100, 0}); // 0.01 m per step
     double farthest = 0, nearest = 30;
     int turns = 0;

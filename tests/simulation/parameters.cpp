@@ -89,18 +89,18 @@ void check(Parameters const& fine, std::vector<row> const& rows, auto const& val
         for (double const value : fed) {
             *numbers[k] = value;
             INFO(rows[k].name << " = " << value);
-            std::string said = "accepted";
+            std::string outcome = "accepted";
             try {
                 validate(copy);
             } catch (std::invalid_argument const& e) {
-                said = e.what();
+                outcome = e.what();
             }
             if (accepted(rows[k].law, value)) {
-                CHECK(said == "accepted");
+                CHECK(outcome == "accepted");
             } else {
-                CHECK_THAT(said, contains_text(": must be "));
+                CHECK_THAT(outcome, contains_text(": must be "));
                 if (rows[k].law < rule::bound)
-                    CHECK_THAT(said, contains_text(rows[k].name + " = " + lacuna::to_text(value) + ": must be "));
+                    CHECK_THAT(outcome, contains_text(rows[k].name + " = " + lacuna::to_text(value) + ": must be "));
             }
         }
         *numbers[k] = before;

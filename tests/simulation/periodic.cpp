@@ -56,9 +56,9 @@ lacuna::simulation<Model> crowd(int threads, bool reversed = false) {
             for (int x = 0; x < size[0]; ++x) {
                 auto const k = packing.size();
                 int const at[3] = {x, y, z};
-                lacuna::vec<double, dim> place{};
-                for (int axis = 0; axis < dim; ++axis) place[axis] = at[axis] + 0.02 * noise(k, axis);
-                packing.add(place, 0.49 + 0.02 * noise(k, 3));
+                lacuna::vec<double, dim> position{};
+                for (int axis = 0; axis < dim; ++axis) position[axis] = at[axis] + 0.02 * noise(k, axis);
+                packing.add(position, 0.49 + 0.02 * noise(k, 3));
                 if (noise(k, 4) > -0.3) packing.bonds.push_back({std::int32_t(k), std::int32_t(x + 1 < size[0] ? k + 1 : k + 1 - std::size_t(size[0]))});
             }
     if (reversed) {
@@ -96,14 +96,14 @@ TEST_CASE("a closed chain oscillates with the frequencies of a ring", "[periodic
         double const speed = 1e-3;
         for (std::size_t i = 0; i < sim.size(); ++i) sim.set_velocity(i, {speed * std::cos(2 * pi * n * double(i) / count), 0});
         double const omega = 2 * std::sqrt(k) * std::sin(pi * n / count);
-        double const turned = 2 * std::asin(0.5 * omega * p.time_step) / p.time_step;
+        double const frequency = 2 * std::asin(0.5 * omega * p.time_step) / p.time_step;
         double worst = 0;
-        // x = A sin(turned t) from v(-dt/2) = speed: A = speed / turned (of the scheme) up to first order in dt.
-        double const first = p.time_step * speed / std::sin(turned * p.time_step);
+        // x = A sin(frequency t) from v(-dt/2) = speed: A = speed / frequency (of the scheme) up to first order in dt.
+        double const first = p.time_step * speed / std::sin(frequency * p.time_step);
         for (int step = 1; step <= 400; ++step) {
             sim.step_with_energy();
             double const moved = sim.position(0)[0];
-            worst = std::max(worst, std::fabs(moved - first * std::sin(turned * double(step) * p.time_step)));
+            worst = std::max(worst, std::fabs(moved - first * std::sin(frequency * double(step) * p.time_step)));
         }
         CHECK(worst < 1e-6 * first);
         CHECK(std::fabs(sim.energy().residual()) < 1e-9 * sim.energy().largest());
@@ -164,8 +164,8 @@ TEMPLATE_TEST_CASE("pairs across an end of the period behave as in an open domai
     p.time_step = q.time_step = 1e-3;
     p.domain.period[0] = 8;
     auto wrapped = three;
-    for (auto& place : wrapped.position)
-        if (place[0] > 8) place[0] -= 8;
+    for (auto& position : wrapped.position)
+        if (position[0] > 8) position[0] -= 8;
     lacuna::simulation<TestType> periodic(wrapped, p);
     lacuna::simulation<open> straight(three, q);
     lacuna::vec<double, dim> v{};
@@ -194,7 +194,7 @@ TEMPLATE_TEST_CASE("pairs across an end of the period behave as in an open domai
 
 TEMPLATE_TEST_CASE("a periodic crowd conserves momentum and has the same bits with threads and after a restart",
                    "[periodic][determinism]", ring, cell) {
-    auto one = crowd<TestType>(1), two = crowd<TestType>(2), turned = crowd<TestType>(1, true);
+    auto one = crowd<TestType>(1), two = crowd<TestType>(2), reversed = crowd<TestType>(1, true);
     auto const before = momentum(one);
     long long broken = 0;
     std::string const file = "periodic" + std::to_string(TestType::dim) + ".bin";
@@ -202,7 +202,7 @@ TEMPLATE_TEST_CASE("a periodic crowd conserves momentum and has the same bits wi
     for (int step = 0; step < 800; ++step) {
         one.step_with_energy();
         two.step_with_energy();
-        turned.step_with_energy();
+        reversed.step_with_energy();
         broken += long(one.events().size());
         if (step == 300) {
             lacuna::save_checkpoint(file, one);
@@ -220,8 +220,8 @@ TEMPLATE_TEST_CASE("a periodic crowd conserves momentum and has the same bits wi
     CHECK(lacuna::state_hash(one) == lacuna::state_hash(resumed));
     for (std::size_t k = 0; k < one.size(); ++k)
         for (int axis = 0; axis < TestType::dim; ++axis) {
-            CHECK(one.position(k)[axis] == turned.position(one.size() - 1 - k)[axis]);
-            CHECK(one.velocity(k)[axis] == turned.velocity(one.size() - 1 - k)[axis]);
+            CHECK(one.position(k)[axis] == reversed.position(one.size() - 1 - k)[axis]);
+            CHECK(one.velocity(k)[axis] == reversed.velocity(one.size() - 1 - k)[axis]);
         }
 }
 

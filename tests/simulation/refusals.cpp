@@ -78,8 +78,8 @@ TEST_CASE("each bad parameter is refused by name", "[refusal]") {
             settings p;
             f.get(p) = value;
             INFO(f.name << " = " << value);
-            std::string const said = refusal([&] { lacuna::simulation<plane>(chain<2>(2), p); });
-            REQUIRE_THAT(said, contains_text(f.name + " = " + lacuna::to_text(value) + ": must be "));
+            std::string const message = refusal([&] { lacuna::simulation<plane>(chain<2>(2), p); });
+            REQUIRE_THAT(message, contains_text(f.name + " = " + lacuna::to_text(value) + ": must be "));
         }
     settings fine;
     REQUIRE(refusal([&] { lacuna::simulation<plane>(chain<2>(2), fine); }) == "accepted");
@@ -242,7 +242,7 @@ TEST_CASE("a run that went wrong says where", "[unstable]") {
 }
 
 TEST_CASE("a run whose energy runs away is stopped", "[unstable]") {
-    auto const said = [](auto const& play) {
+    auto const outcome_of = [](auto const& play) {
         try {
             play();
         } catch (lacuna::unstable_run const& e) {
@@ -261,14 +261,14 @@ TEST_CASE("a run whose energy runs away is stopped", "[unstable]") {
         p.time_step = 1.416;
         lacuna::simulation<plane> run(chain<2>(2), p);
         run.set_velocity(0, {1e-8, 0});
-        REQUIRE_THAT(said([&] { run.run(10000); }), contains_text("grow fourfold") && contains_text("time step"));
+        REQUIRE_THAT(outcome_of([&] { run.run(10000); }), contains_text("grow fourfold") && contains_text("time step"));
     }
     SECTION("seen from the ledger: a law that makes energy") {
         auto q = springs<plane_of_pushers>(1, 0, 0, unit_density(2));
         q.time_step = 0.01;
         lacuna::simulation<plane_of_pushers> run(chain<2>(2, false), q);
         run.set_velocity(0, {1e-3, 0});
-        auto const text = said([&] {
+        auto const text = outcome_of([&] {
             for (int n = 0; n < 10000; ++n) run.step_with_energy();
         });
         REQUIRE_THAT(text, contains_text("energy runs away") && contains_text("have no source"));
@@ -279,6 +279,6 @@ TEST_CASE("a run whose energy runs away is stopped", "[unstable]") {
         lacuna::simulation<plane> run(chain<2>(4), p);
         run.apply(0, {1e-4, 0}, 0, 300);
         run.set_velocity(3, {0, 1e-3});
-        REQUIRE(said([&] { run.run(500); }) == "nothing was thrown");
+        REQUIRE(outcome_of([&] { run.run(500); }) == "nothing was thrown");
     }
 }

@@ -76,16 +76,17 @@ void check_resumed(std::string const& name, long long steps, std::size_t least) 
     remesh_parameters const often{remesh_rule::when_needed, 20};
     auto whole = make_shear<Model>(often);
     std::vector<std::uint64_t> states;
-    std::vector<long long> anew; // steps after which the mesh was another
+    std::vector<long long> new_meshes; // steps after which the mesh was another
     for (long long n = 0; n < steps; ++n) {
         auto const before = whole.flow().ledger().remeshes;
         whole.step_with_energy();
         states.push_back(state_hash(whole));
-        if (whole.flow().ledger().remeshes > before) anew.push_back(n + 1);
+        if (whole.flow().ledger().remeshes > before) new_meshes.push_back(n + 1);
     }
-    INFO(anew.size() << " new meshes");
-    REQUIRE(anew.size() >= least);
-    for (long long const at : {1LL, anew[0] - 1, anew[0], anew[anew.size() / 2] + 7, anew.back()}) {
+    INFO(new_meshes.size() << " new meshes");
+    REQUIRE(new_meshes.size() >= least);
+    for (long long const at :
+         {1LL, new_meshes[0] - 1, new_meshes[0], new_meshes[new_meshes.size() / 2] + 7, new_meshes.back()}) {
         auto first = make_shear<Model>(often, 2);
         for (long long n = 0; n < at; ++n) first.step_with_energy();
         save_checkpoint(path, first);
@@ -150,7 +151,7 @@ double limit_of_four(double conductivity, vec<double, 2> const& across) {
 }
 
 template <class Model>
-std::size_t turned_over(simulation<Model> const& sim) {
+std::size_t inverted_pores(simulation<Model> const& sim) {
     auto const& net = sim.flow().network();
     auto const x = sim.particles().positions();
     std::size_t count = 0;
@@ -171,11 +172,11 @@ TEST_CASE("a body sheared by more than its height: the mesh stays valid, the flu
     for (int n = 0; n < 16000; ++n) {
         bool const due = (n + 1) % 20 == 0;
         pore_network<double, 2> old;
-        std::vector<vec<double, 2>> places;
+        std::vector<vec<double, 2>> old_positions;
         if (due) {
             old = sim.flow().network();
             auto const x = sim.particles().positions();
-            for (std::size_t k = 0; k < x.size(); ++k) places.push_back(x[k]);
+            for (std::size_t k = 0; k < x.size(); ++k) old_positions.push_back(x[k]);
         }
         sim.step_with_energy();
         auto const& ledger = sim.flow().ledger();
@@ -189,7 +190,7 @@ TEST_CASE("a body sheared by more than its height: the mesh stays valid, the flu
         }
         if (ledger.remeshes == meshes) continue;
         meshes = ledger.remeshes;
-        REQUIRE(turned_over(sim) == 0);
+        REQUIRE(inverted_pores(sim) == 0);
         REQUIRE_THAT(ledger.remesh_residual, WithinAbs(0, 1e-12 * ledger.remesh_content));
         // Recomputed: the fluid in the pores of the old mesh after the step, with the positions before it.
         double before = 0, after = 0, scale = 0;
@@ -197,8 +198,8 @@ TEST_CASE("a body sheared by more than its height: the mesh stays valid, the flu
             std::array<std::size_t, 3> const c{std::size_t(old.corner[0][p]), std::size_t(old.corner[1][p]),
                                                std::size_t(old.corner[2][p])};
             auto const* r = sim.particles().radii().data();
-            double const v = pore_volume(places[c[0]], places[c[1]], places[c[2]], r[c[0]], r[c[1]], r[c[2]], 1.0,
-                                         least * old.size[p]);
+            double const v = pore_volume(old_positions[c[0]], old_positions[c[1]], old_positions[c[2]], r[c[0]],
+                                         r[c[1]], r[c[2]], 1.0, least * old.size[p]);
             before += v * old.pressure[p] / modulus - (v - old.volume[p]);
             scale += v * std::fabs(old.pressure[p]) / modulus;
             most_before = std::max(most_before, std::fabs(old.pressure[p]));
@@ -211,7 +212,7 @@ TEST_CASE("a body sheared by more than its height: the mesh stays valid, the flu
     // With the initial mesh the run ends once a pore is inverted.
     REQUIRE_THROWS_WITH(still.run(16000), contains_text("is inverted"));
     REQUIRE(still.flow().ledger().remeshes == 0);
-    REQUIRE(turned_over(still) > 0);
+    REQUIRE(inverted_pores(still) > 0);
     // The energy that the new meshes took out of the compressed fluid is in the ledger.
     REQUIRE(std::fabs(sim.energy().fluid_remesh) > 1e-4 * sim.energy().largest());
     REQUIRE(std::fabs(sim.energy().residual()) < 1e-4 * sim.energy().largest());
@@ -250,7 +251,7 @@ TEST_CASE("explicit flow gets new meshes like implicit flow, and bad intervals a
     auto sim = make_shear<sheared_explicitly>({remesh_rule::when_needed, 20});
     sim.run(4000);
     REQUIRE(sim.flow().ledger().remeshes > 0);
-    REQUIRE(turned_over(sim) == 0);
+    REQUIRE(inverted_pores(sim) == 0);
     for (double const p : sim.flow().network().pressure) REQUIRE(std::isfinite(p));
     REQUIRE_THROWS_WITH(make_shear<sheared>({remesh_rule::when_needed, 0}), contains_text("remeshing.interval = 0"));
 }

@@ -33,11 +33,11 @@ std::string answer(lacuna::simulation<Model>& sim) {
     try {
         lacuna::load_checkpoint(file, sim);
     } catch (lacuna::checkpoint_error const& e) {
-        std::string const said = e.what();
+        std::string const message = e.what();
         REQUIRE(lacuna::state_hash(sim) == before);
-        REQUIRE(said.find('\n') == std::string::npos);
-        REQUIRE(said.rfind("checkpoint " + file + ": ", 0) == 0);
-        return said;
+        REQUIRE(message.find('\n') == std::string::npos);
+        REQUIRE(message.rfind("checkpoint " + file + ": ", 0) == 0);
+        return message;
     }
     return "accepted";
 }
@@ -139,11 +139,11 @@ std::size_t leaves(T& value) {
 }
 
 /// Each change is refused by its name.
-/// \param untold number of members that no change covers
+/// \param uncovered number of members that no change covers
 template <class Model>
-void check_changes(std::vector<change<Model>> const& changes, std::size_t untold) {
+void check_changes(std::vector<change<Model>> const& changes, std::size_t uncovered) {
     auto p = plain_parameters<Model>();
-    REQUIRE(changes.size() + untold == leaves(p)); // a new member needs a line
+    REQUIRE(changes.size() + uncovered == leaves(p)); // a new member needs a line
     lacuna::save_checkpoint(file, filled<Model>(p));
     for (auto const& c : changes) {
         auto q = p;
@@ -371,22 +371,22 @@ template <class Model>
 void check_calls() {
     auto p = plain_parameters<Model>();
     p.mass = Model::dim == 3 ? lacuna::mass_model::sphere : lacuna::mass_model::disc;
-    auto const with = [&](calls<Model> const& said) {
+    auto const with = [&](calls<Model> const& calls_made) {
         auto sim = filled<Model>(p);
-        said.all(sim);
+        calls_made.all(sim);
         return sim;
     };
-    calls<Model> const said;
-    auto whole = with(said);
+    calls<Model> const calls_made;
+    auto whole = with(calls_made);
     whole.run(6);
     for (int const at : {0, 3}) {
-        auto first = with(said);
+        auto first = with(calls_made);
         if (at > 0) first.run(6, stop_after{at});
         lacuna::save_checkpoint(file, first);
         INFO("after " << at << " steps");
         // The same calls in another order, or no calls at all, give the same bits.
         auto other = filled<Model>(p), bare = filled<Model>(p);
-        said.backwards(other);
+        calls_made.backwards(other);
         for (auto* sim : {&other, &bare}) {
             REQUIRE(answer(*sim) == "accepted");
             sim->run(6 - at);
@@ -417,7 +417,7 @@ void check_calls() {
         without.run(at);
         lacuna::save_checkpoint(file, without);
         auto late = filled<Model>(p);
-        said.loads(late);
+        calls_made.loads(late);
         CHECK_THAT(answer(late), contains_text("other loads than"));
         auto held = filled<Model>(p);
         held.fix(0);

@@ -42,7 +42,7 @@ double noise(std::size_t k, int salt) { return std::sin(12.9898 * double(k) + 78
 /// A wet packing that is sheared by its own motion, so that pairs form and separate; its pores are drained on one side.
 /// \param duration duration in the flow's parameters, s
 template <class Model>
-simulation<Model> wet_body(double duration) {
+simulation<Model> wet_packing(double duration) {
     constexpr int dim = Model::dim;
     packing<double, dim> particles;
     int const n = dim == 2 ? 6 : 3;
@@ -92,25 +92,26 @@ TEMPLATE_TEST_CASE("a wet packing has the same bits however its run is split int
                    "[flow][same bits]",
                    sheet_explicit, sheet_implicit, block_explicit, block_implicit) {
     // A duration by which some throats matter and some do not.
-    auto fresh = wet_body<TestType>(std::numeric_limits<double>::infinity());
-    REQUIRE(inactive_throats(fresh) == 0);
-    auto const& net = fresh.flow().network();
+    auto unlimited = wet_packing<TestType>(std::numeric_limits<double>::infinity());
+    REQUIRE(inactive_throats(unlimited) == 0);
+    auto const& net = unlimited.flow().network();
     std::vector<double> limits;
     for (std::size_t t = 0; t < net.open_throats(); ++t)
-        limits.push_back(throat_time_step(net, t, fresh.settings().flow.bulk_modulus));
+        limits.push_back(throat_time_step(net, t, unlimited.settings().flow.bulk_modulus));
     std::sort(limits.begin(), limits.end());
     REQUIRE(limits.size() > 10);
     double const middle = limits[limits.size() / 2], duration = middle / 10;
 
     constexpr long long steps = 200;
-    auto whole = wet_body<TestType>(duration);
+    auto whole = wet_packing<TestType>(duration);
     REQUIRE(inactive_throats(whole) == std::size_t(std::count_if(limits.begin(), limits.end(), [&](double l) { return l > middle; })));
     whole.run(steps);
-    std::size_t const idle = inactive_throats(whole);
-    REQUIRE(idle > 0);
-    REQUIRE(idle < limits.size());
+    std::size_t const inactive = inactive_throats(whole);
+    REQUIRE(inactive > 0);
+    REQUIRE(inactive < limits.size());
 
-    auto twos = wet_body<TestType>(duration), singles = wet_body<TestType>(duration), ends = wet_body<TestType>(duration);
+    auto twos = wet_packing<TestType>(duration), singles = wet_packing<TestType>(duration),
+         ends = wet_packing<TestType>(duration);
     while (twos.steps() < steps) twos.run(2);
     while (singles.steps() < steps) singles.step();
     REQUIRE(state_hash(twos) == state_hash(whole));
@@ -119,20 +120,20 @@ TEMPLATE_TEST_CASE("a wet packing has the same bits however its run is split int
     ends.run(37);
     auto const saved = checkpoint_of(ends);
     // The run may last longer than the given duration.
-    auto again = wet_body<TestType>(duration);
+    auto again = wet_packing<TestType>(duration);
     resume_from(saved, "memory", again);
     again.run(steps - 37);
     REQUIRE(state_hash(again) == state_hash(whole));
-    auto longer = wet_body<TestType>(2 * duration);
+    auto longer = wet_packing<TestType>(2 * duration);
     resume_from(saved, "memory", longer);
     REQUIRE(longer.settings().flow.duration == 2 * duration);
 
     // Without a duration all throats matter, however short the calls are.
-    auto all = wet_body<TestType>(std::numeric_limits<double>::infinity());
-    fresh.run(steps);
+    auto all = wet_packing<TestType>(std::numeric_limits<double>::infinity());
+    unlimited.run(steps);
     while (all.steps() < steps) all.run(1);
     REQUIRE(inactive_throats(all) == 0);
-    REQUIRE(state_hash(all) == state_hash(fresh));
+    REQUIRE(state_hash(all) == state_hash(unlimited));
 }
 
 TEST_CASE("settings after resolve_time_step() have an effect on the first step of run() and of step()", "[same bits]") {

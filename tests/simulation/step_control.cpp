@@ -45,9 +45,9 @@ void meet(double speed, double young) {
     using real = typename Model::real;
     lacuna::packing<real, Model::dim> two;
     two.add({}, real(0.01));
-    lacuna::vec<real, Model::dim> place{};
-    place[0] = real(0.03);
-    two.add(place, real(0.01));
+    lacuna::vec<real, Model::dim> position{};
+    position[0] = real(0.03);
+    two.add(position, real(0.01));
     lacuna::simulation<Model> sim(two, steel<Model>(young));
     lacuna::vec<double, Model::dim> v{};
     v[0] = speed;

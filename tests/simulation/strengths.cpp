@@ -44,10 +44,10 @@ TEST_CASE("a bond breaks on Mohr-Coulomb's line, and the event has the mode", "[
     for (double const normal : {-20.0, -6.0, 0.0, 2.0}) {
         lacuna::simulation<rock> sim(chain<2>(2), rock_parameters());
         sim.fix(0);
-        double const speed = 1e-4, way = normal / 1e5;
+        double const speed = 1e-4, path = normal / 1e5;
         sim.prescribe_velocity(1, {normal < 0 ? -speed : speed, 0});
         sim.fix(1);
-        while (std::fabs(sim.position(1)[0] - 1) < std::fabs(way)) sim.step();
+        while (std::fabs(sim.position(1)[0] - 1) < std::fabs(path)) sim.step();
         sim.prescribe_velocity(1, {0, speed});
         sim.fix(1);
         auto const event = first_break(sim);

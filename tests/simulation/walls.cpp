@@ -14,18 +14,18 @@ using namespace setups;
 
 namespace {
 
-/// A disc or sphere of 1 kg and radius 0.5 m at the origin, and an upward facing wall `away` below its lowest point.
+/// A disc or sphere of 1 kg and radius 0.5 m at the origin, and an upward facing wall `gap` below its lowest point.
 template <class Model>
 struct above_a_wall {
     static constexpr int dim = Model::dim;
     lacuna::simulation_parameters<Model> p;
-    lacuna::packing<double, dim> body;
+    lacuna::packing<double, dim> packing;
 
-    explicit above_a_wall(double away, double friction = 0, double kn = 1e4)
+    explicit above_a_wall(double gap, double friction = 0, double kn = 1e4)
         : p(springs<Model>(kn, 0.8 * kn, friction, unit_density(dim))) {
-        body.add({}, 0.5);
+        packing.add({}, 0.5);
         lacuna::vec<double, dim> floor{}, up{};
-        floor[1] = -0.5 - away;
+        floor[1] = -0.5 - gap;
         up[1] = 1;
         p.walls = {{floor, up, p.materials[0].contact}};
         p.time_step = 0.02 / std::sqrt(kn);
@@ -37,7 +37,7 @@ lacuna::vec<double, 2> along_y(double v) { return {0, v}; }
 
 TEMPLATE_TEST_CASE("a particle leaves a moving wall at twice the speed of the wall", "[walls]", plane, space) {
     above_a_wall<TestType> s(1.2);
-    lacuna::simulation<TestType> sim(s.body, s.p);
+    lacuna::simulation<TestType> sim(s.packing, s.p);
     lacuna::vec<double, TestType::dim> v{};
     v[1] = 0.5;
     sim.move_wall(0, v);
@@ -57,7 +57,7 @@ TEST_CASE("a particle on a belt slips, then rolls at a third of the belt's speed
     double const g = 10, mu = 0.3, belt = 0.6, kn = 1e6;
     above_a_wall<plane> s(-1 * g / kn, mu, kn);
     s.p.gravity = {0, -g};
-    lacuna::simulation<plane> sim(s.body, s.p);
+    lacuna::simulation<plane> sim(s.packing, s.p);
     sim.move_wall(0, {belt, 0});
     double const slips = belt / (3 * mu * g);
     while (sim.time() < 0.5 * slips) sim.step_with_energy();
@@ -82,7 +82,7 @@ TEST_CASE("a particle that starts in or near contact with a wall is at rest ther
             above_a_wall<plane> s(-overlap);
             s.p.interactions.initial_contact_tolerance = 0.02; // of the radius of 0.5: 0.01
             s.p.interactions.skin = skin;
-            lacuna::simulation<plane> sim(s.body, s.p);
+            lacuna::simulation<plane> sim(s.packing, s.p);
             sim.run(100);
             REQUIRE(sim.position(0) == lacuna::vec<double, 2>{});
             REQUIRE(sim.walls().force(0)[1] == 0);
@@ -101,14 +101,14 @@ TEST_CASE("a particle that starts in or near contact with a wall is at rest ther
     double const overlap = 0.005;
     above_a_wall<plane> deep(-3 * overlap); // beyond the tolerance: the overlap is a force
     deep.p.interactions.initial_contact_tolerance = 0.02;
-    lacuna::simulation<plane> thrown(deep.body, deep.p);
-    thrown.run(1);
-    CHECK_THAT(thrown.walls().force(0)[1], WithinRel(-kn * 3 * overlap, 1e-9));
+    lacuna::simulation<plane> overlapping(deep.packing, deep.p);
+    overlapping.run(1);
+    CHECK_THAT(overlapping.walls().force(0)[1], WithinRel(-kn * 3 * overlap, 1e-9));
 }
 
 TEST_CASE("a wall's ramp is linear in its velocity", "[walls]") {
     above_a_wall<plane> s(10);
-    lacuna::simulation<plane> sim(s.body, s.p);
+    lacuna::simulation<plane> sim(s.packing, s.p);
     sim.move_wall(0, {-0.1, 0.4}, 0.05);
     while (sim.steps() < 125) sim.step();
     CHECK_THAT(sim.walls().point(0)[1], WithinAbs(-10.5 + 0.5 * 0.4 * 0.025 * 0.025 / 0.05, 1e-12));
@@ -119,7 +119,7 @@ TEST_CASE("a wall's ramp is linear in its velocity", "[walls]") {
 
 TEST_CASE("a servo makes up a fixed share of the missing force in each step", "[walls][servo]") {
     above_a_wall<plane> s(-1e-4);
-    lacuna::simulation<plane> sim(s.body, s.p);
+    lacuna::simulation<plane> sim(s.packing, s.p);
     sim.fix(0);
     sim.servo_wall(0, {5.0, 2.0, 9.0, 0.25, {}}); // 10 N; at first there is 1 N
     double missing = 9;
@@ -131,10 +131,10 @@ TEST_CASE("a servo makes up a fixed share of the missing force in each step", "[
     // move_wall() ends the servo.
     sim.move_wall(0, along_y(0));
     sim.step();
-    double const place = sim.walls().point(0)[1];
+    double const position = sim.walls().point(0)[1];
     sim.apply(0, {0, -5});
     sim.step();
-    CHECK(sim.walls().point(0)[1] == place);
+    CHECK(sim.walls().point(0)[1] == position);
 }
 
 TEST_CASE("a servo without contacts approaches at its largest speed, and stops at the stress", "[walls][servo]") {
@@ -185,7 +185,7 @@ TEST_CASE("the area of a servo is that between the walls beside it", "[walls][se
 
 TEST_CASE("bad walls, motions and servos are refused by name", "[walls][refusal]") {
     above_a_wall<plane> s(0);
-    lacuna::simulation<plane> sim(s.body, s.p);
+    lacuna::simulation<plane> sim(s.packing, s.p);
     CHECK_THROWS_WITH(sim.move_wall(1, {0, 0}), contains_text("wall = 1: must be below the number of walls, 1"));
     CHECK_THROWS_WITH(sim.move_wall(0, {0, never}), contains_text("wall 0.velocity = inf"));
     CHECK_THROWS_WITH(sim.move_wall(0, {0, 0}, -1), contains_text("wall 0.ramp_time = -1"));

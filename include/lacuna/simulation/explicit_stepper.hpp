@@ -24,8 +24,8 @@ LACUNA_BEGIN_PACKS
 /// explicit_stepper<Model>(state, clock).template step<WithEnergy>();
 /// \endcode
 ///
-/// Most of a model's code is in step() and in resolve() and limits() of step_clock. A program of several files can compile
-/// these three once, with `extern template`; see examples/cartilage/run/cartilage_model.hpp.
+/// Most of a model's code is in step() and in resolve() and limits() of step_clock. A program of several files can
+/// compile these three once, with `extern template`; see examples/cartilage/run/cartilage_model.hpp.
 template <class Model>
 class explicit_stepper {
 public:
