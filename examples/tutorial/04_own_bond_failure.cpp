@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// 4. A failure criterion of one's own, put into the library's bond.
+// 4. Your own failure criterion in the library's bond.
 //
-// Instead of the paper's box (Fig. 4) an ellipse: a bond fails where (F_n / T)^2 + (F_s / S)^2 > 1 in tension, and
-// beyond S in shear under compression. Pulled askew, with F_n = F_s, it breaks at T S / sqrt(T^2 + S^2).
+// The criterion is an ellipse instead of the paper's box (Fig. 4). In tension a bond fails if
+// (F_n / T)^2 + (F_s / S)^2 > 1; under compression it fails if the shear force exceeds S. Pulled with F_n = F_s, it
+// breaks at T S / sqrt(T^2 + S^2).
 
 #include <cmath>
 #include <cstdio>
@@ -13,7 +14,7 @@
 
 #include "check.hpp"
 
-using lacuna::max; // of numbers, packs of numbers and dual numbers alike
+using lacuna::max; // works for numbers, packs of numbers and dual numbers
 
 struct ellipse : lacuna::plain_envelope {
     template <class T>
@@ -38,9 +39,9 @@ int main() {
     p.materials[0].bond = {.normal_stiffness = 1e8, .shear_stiffness = 1e8, .tensile_strength = tensile,
                            .shear_strength = shear};
 
-    p.time_step = 1e-4; // s; to be given, as where nothing can swing no step is too long
+    p.time_step = 1e-4; // s; must be given: with both particles fixed there is no stable limit
 
-    // Both ends held, one drawn away along the bond and across it at once.
+    // Both particles are fixed; one moves with equal velocities along and across the bond.
     lacuna::simulation<model> sim(discs, p);
     sim.fix(0);
     sim.fix(1);

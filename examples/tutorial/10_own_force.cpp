@@ -2,9 +2,9 @@
 //
 // 10. A body force: a function of position, velocity, mass and time, as a struct or a lambda.
 //
-// A planet flies round a sun with G M = 1. At 1 m, across the line to the sun, it has 1.2 times the speed of a circle. Its
-// orbit is an ellipse; the far end is at r v^2 / (2 - r v^2) = 2.5714 m. The library books the work of the force in the energy
-// ledger, and counts its derivatives in the bound of the time step.
+// A planet moves around a sun with G M = 1 m^3/s^2. It starts at 1 m, perpendicular to the line to the sun, at 1.2
+// times the speed of a circular orbit. Its orbit is an ellipse with the far end at r v^2 / (2 - r v^2) = 2.5714 m. The
+// library adds the work of the force to the energy ledger, and its derivatives to the bound of the time step.
 
 #include <algorithm>
 #include <cmath>
