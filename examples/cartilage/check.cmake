@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# cmake -D CASE=... -D PROGRAM=... -D SCRATCH=... -P check.cmake: runs the program and looks at what it leaves.
+# cmake -D CASE=... -D PROGRAM=... -D SCRATCH=... -P check.cmake: runs the program and checks its output and files.
 
 cmake_minimum_required(VERSION 3.25)
 
@@ -47,12 +47,12 @@ endfunction()
 set(run_files cracks.csv damage.png damage.svg packing.png packing.svg summary.json)
 
 if(CASE STREQUAL "refusals")
-  # refused(what arguments...): status 2, one line that names `what`, nothing written.
-  function(refused what)
+  # refused(words arguments...): status 2, one line on stderr with these words, no file written.
+  function(refused words)
     call(2 ${ARGN})
-    string(FIND "${err}" "${what}" place)
-    if(place EQUAL -1 OR NOT err MATCHES "^cartilage: [^\n]+\n$" OR NOT out STREQUAL "")
-      message(FATAL_ERROR "not one clear line that names '${what}': cartilage ${ARGN}\n${out}${err}")
+    string(FIND "${err}" "${words}" position)
+    if(position EQUAL -1 OR NOT err MATCHES "^cartilage: [^\n]+\n$" OR NOT out STREQUAL "")
+      message(FATAL_ERROR "not one line with '${words}': cartilage ${ARGN}\n${out}${err}")
     endif()
     files("." kept)
   endfunction()
@@ -86,9 +86,9 @@ if(CASE STREQUAL "refusals")
   refused("--out" run --zone surface --load 5 --out kept/inside)
   call(0 --help)
   call(0 run --help)
-  foreach(text IN ITEMS "fill=0.9 area fraction" "a number from 0.6 to 1" "duration=0 ns" "top_and_sides, top or sealed" "um (as" "MPa")
-    string(FIND "${out}" "${text}" place)
-    if(place EQUAL -1)
+  foreach(text IN ITEMS "fill=0.9 area fraction" "a number from 0.6 to 1" "duration=0 ns" "top_and_sides, top or sealed" "um (from" "MPa")
+    string(FIND "${out}" "${text}" position)
+    if(position EQUAL -1)
       message(FATAL_ERROR "run --help lacks '${text}':\n${out}")
     endif()
   endforeach()
@@ -104,7 +104,7 @@ if(CASE STREQUAL "refusals")
   refused("(did you mean fill?)" run --zone deep --load 5 --set fil=0.8)
   refused("radii = equall: must be random or equal (did you mean equal?)" run --zone deep --load 5 --set radii=equall)
   refused("(did you mean thickness?)" calibrate --free thicknes)
-  # Files that are none, or not what they should be.
+  # Files that are empty, binary or no study.
   set(input "${SCRATCH}.input")
   file(REMOVE_RECURSE "${input}")
   foreach(name IN ITEMS nothing zeros other)
@@ -123,7 +123,7 @@ if(CASE STREQUAL "refusals")
   refused("has no study.json that can be read" study merge "${input}/folder")
   file(REMOVE_RECURSE "${input}")
   files("." kept)
-  # What cannot be said on stdout is an error, a reader who has gone is none.
+  # A full disk at stdout is an error; a closed pipe is none.
   find_program(sh sh)
   if(EXISTS /dev/full)
     execute_process(COMMAND "${sh}" -c "'${PROGRAM}' run --help >/dev/full" WORKING_DIRECTORY "${SCRATCH}" RESULT_VARIABLE result ERROR_VARIABLE err)
@@ -132,7 +132,7 @@ if(CASE STREQUAL "refusals")
     endif()
     execute_process(COMMAND "${sh}" -c "('${PROGRAM}' run --help; echo $? >&2) | :" WORKING_DIRECTORY "${SCRATCH}" ERROR_VARIABLE err)
     if(NOT err MATCHES "^(0|141)\n$")
-      message(FATAL_ERROR "nobody reads stdout: ${err}")
+      message(FATAL_ERROR "a closed pipe at stdout: ${err}")
     endif()
   endif()
 
@@ -170,7 +170,7 @@ elseif(CASE STREQUAL "run")
   list(LENGTH lines lines)
   math(EXPR cracks "${lines} - 1")
   expect("broken GREATER 0 AND cracks EQUAL broken")
-  # The layers hold every bond and every break once.
+  # Every bond and every break is in one layer.
   file(READ "${SCRATCH}/result/summary.json" text)
   string(JSON layers LENGTH "${text}" layers)
   math(EXPR last "${layers} - 1")
@@ -222,7 +222,7 @@ elseif(CASE STREQUAL "no_overwrite")
   files(result ${run_files} notes.txt)
 
 elseif(CASE STREQUAL "owner")
-  # One run owns the directory. After it was killed the next run may have it, and finds the earlier results.
+  # One run owns the directory. After it was killed another run may use it; the earlier results are still there.
   find_program(sh sh)
   execute_process(COMMAND "${sh}" -c "'${PROGRAM}' run --zone deep --load 5 --length 84 --height 42 --duration 1000000 --quiet --out result & \
 while ! test -e result/cracks.csv; do sleep 0.05; done; \
@@ -236,7 +236,7 @@ while ! test -e result/cracks.csv; do sleep 0.05; done; \
   expect("err MATCHES cracks.csv AND err MATCHES --force")
   call(0 pack --zone deep ${small} --quiet --out result --force)
   files(result packing.png packing.svg statistics.json)
-  # What another command left is replaced as a whole, not in part.
+  # --force removes all results of an earlier command.
   call(0 sensitivity --zones surface --seeds 1 --quick --only fill ${small} --dry --duration 0.2 --quiet --out varied)
   file(GLOB before RELATIVE "${SCRATCH}/varied" "${SCRATCH}/varied/*.png")
   call(2 sensitivity --zones deep --seeds 1 --quick --only fill ${small} --dry --duration 0.2 --quiet --out varied)
@@ -251,8 +251,8 @@ elseif(CASE STREQUAL "interrupted")
     return()
   endif()
   foreach(signal IN ITEMS INT TERM)
-    # In the foreground, or the signal comes twice, and the second ends the program at once. A slow machine may still be
-    # packing when it comes: then later again.
+    # Without --foreground the signal comes twice, and the second one ends the program at once. On a slow machine it may come
+    # during the packing; then the next, longer time is tried.
     foreach(seconds IN ITEMS 4 20 100)
       execute_process(
         COMMAND "${timeout}" --foreground --preserve-status -s ${signal} ${seconds} "${PROGRAM}" run --zone surface --load 5 ${small}
@@ -281,7 +281,7 @@ elseif(CASE STREQUAL "unstable")
   endif()
 
 elseif(CASE STREQUAL "choices")
-  # The file after the preset, single settings after the file.
+  # The file overrides the preset; single settings override the file.
   file(WRITE "${SCRATCH}/mine" "fill = 0.8\nload = platen # stiff\nduration = 5\n")
   call(0 run --zone surface --load 40 ${small} --dry --quiet --preset lattice --choices mine --set fill=0.7
     --duration 0.05 --out result)
@@ -305,8 +305,8 @@ elseif(CASE STREQUAL "sensitivity")
   expect("count GREATER 2 AND count LESS 8")
   list(GET rows 1 row)
   expect("row MATCHES ^fill,area.fraction,0.9,0.78,surface,first.crack,")
-  string(FIND "${rows}" "load_area,,disc,strip,surface,first crack," place)
-  expect("place GREATER 0")
+  string(FIND "${rows}" "load_area,,disc,strip,surface,first crack," position)
+  expect("position GREATER 0")
   file(READ "${SCRATCH}/result/sensitivity.html" page)
   expect("page MATCHES data:image/svg AND page MATCHES </html>")
   foreach(name IN ITEMS sensitivity-surface-first-crack.png sensitivity-surface-first-crack.svg)
@@ -339,7 +339,7 @@ elseif(CASE STREQUAL "calibrate")
   get(least result/calibration.json sets ${best} misfit)
   get(first result/calibration.json sets 0 misfit)
   expect("least LESS_EQUAL first")
-  # Stopped after two sets and taken up again it is the same search.
+  # A search stopped after two sets and continued is the same search.
   file(READ "${SCRATCH}/result/calibration.csv" whole)
   file(REMOVE_RECURSE "${SCRATCH}/result")
   string(REPLACE "evaluations;6" "evaluations;2" part "${request}")
@@ -347,17 +347,17 @@ elseif(CASE STREQUAL "calibrate")
   call(0 ${request} --force)
   file(READ "${SCRATCH}/result/calibration.csv" again)
   if(NOT again STREQUAL whole)
-    message(FATAL_ERROR "taken up again it is another search:\n${whole}\n${again}")
+    message(FATAL_ERROR "the continued search differs:\n${whole}\n${again}")
   endif()
-  # The best set is a set for all commands.
+  # The file of the best set is accepted by other commands.
   call(0 run --zone deep --load 40 ${small} --dry --quiet --choices result/best.choices --out run)
 
 elseif(CASE STREQUAL "study_refusals")
-  function(refused what)
+  function(refused words)
     call(2 study ${ARGN})
-    string(FIND "${err}" "${what}" place)
-    if(place EQUAL -1 OR NOT err MATCHES "^cartilage: [^\n]+\n$" OR NOT out STREQUAL "")
-      message(FATAL_ERROR "not one clear line that names '${what}': cartilage study ${ARGN}\n${out}${err}")
+    string(FIND "${err}" "${words}" position)
+    if(position EQUAL -1 OR NOT err MATCHES "^cartilage: [^\n]+\n$" OR NOT out STREQUAL "")
+      message(FATAL_ERROR "not one line with '${words}': cartilage study ${ARGN}\n${out}${err}")
     endif()
     files("." kept)
   endfunction()
@@ -386,7 +386,7 @@ elseif(CASE STREQUAL "study_refusals")
 
 elseif(CASE STREQUAL "study")
   set(request study --zones surface,deep --seeds 2 --quick --duration 1 --length 84 --height 42)
-  # same_results(directory): it holds what the whole study holds, byte for byte.
+  # same_results(directory): the directory has the files of the whole study, byte for byte.
   function(same_results directory)
     file(GLOB found RELATIVE "${SCRATCH}/${directory}" "${SCRATCH}/${directory}/*")
     file(GLOB wanted RELATIVE "${SCRATCH}/whole" "${SCRATCH}/whole/*")
@@ -412,7 +412,7 @@ elseif(CASE STREQUAL "study")
   string(JSON first GET "${text}" packings 0 first_crack_MPa)
   expect("packings EQUAL 4 AND snapshots EQUAL 2 AND first GREATER 5")
 
-  # Again, from what was kept.
+  # Again, from the cache.
   call(0 ${request} --jobs 1 --out again --cache whole/cache --quiet)
   same_results(again)
   call(0 ${request} --out whole)
@@ -420,7 +420,7 @@ elseif(CASE STREQUAL "study")
   expect("NOT none EQUAL -1")
   same_results(whole)
 
-  # In parts, none of which knows of the others.
+  # In independent parts.
   foreach(k IN ITEMS 1 2 3)
     call(0 ${request} --shard ${k}/3 --jobs 1 --out part${k} --quiet)
   endforeach()
@@ -438,7 +438,7 @@ elseif(CASE STREQUAL "study")
   expect("err MATCHES --force")
   same_results(whole)
 
-  # Stopped by force and by request after a few runs, and resumed.
+  # Killed or interrupted after a few runs, and continued.
   find_program(sh sh)
   foreach(signal IN ITEMS KILL INT)
     list(JOIN request " " line)
@@ -448,16 +448,16 @@ elseif(CASE STREQUAL "study")
     expect("NOT result EQUAL 0 AND NOT EXISTS \"${SCRATCH}/${signal}/study.json\"")
     expect("EXISTS \"${SCRATCH}/${signal}/unfinished-study.json\"")
     call(0 ${request} --jobs 2 --out ${signal})
-    expect("NOT out MATCHES before:.0.packings,.0.runs")
+    expect("NOT out MATCHES cache:.0.packings,.0.runs")
     same_results(${signal})
   endforeach()
 
-  # Kept results that are damaged count as not kept.
-  file(GLOB kept "${SCRATCH}/whole/cache/*.json")
-  list(LENGTH kept count)
+  # Damaged entries of the cache count as missing.
+  file(GLOB entries "${SCRATCH}/whole/cache/*.json")
+  list(LENGTH entries count)
   math(EXPR last "${count} - 1")
   foreach(k RANGE 0 ${last})
-    list(GET kept ${k} path)
+    list(GET entries ${k} path)
     math(EXPR kind "${k} % 3")
     file(READ "${path}" text)
     if(kind EQUAL 0)

@@ -23,7 +23,7 @@ namespace {
 
 enum exit_status { done = 0, failed = 1, bad_request = 2, unstable = 3 };
 
-/// As a shell names the end by a signal.
+/// Exit status after a signal, as in a shell.
 int interrupted() { return 128 + lacuna::stop_signal(); }
 
 lacuna::run_directory directory_of(cartilage::options const& o) {
@@ -31,7 +31,7 @@ lacuna::run_directory directory_of(cartilage::options const& o) {
             o.force ? lacuna::earlier_results::replace : lacuna::earlier_results::refuse};
 }
 
-void say_where(lacuna::run_directory const& out, std::initializer_list<char const*> names) {
+void print_paths(lacuna::run_directory const& out, std::initializer_list<char const*> names) {
     for (char const* name : names) std::printf("%s\n", out.file(name).c_str());
 }
 
@@ -43,7 +43,7 @@ int pack(cartilage::options const& o) {
     lacuna::save_packing(out.file("packing"), cartilage::scene_of(specimen, o));
     cartilage::write_statistics(out.file("statistics.json"), o, report);
     if (!o.quiet) cartilage::print_statistics(stdout, o, report);
-    if (!o.quiet) say_where(out, {"packing.png", "packing.svg", "statistics.json"});
+    if (!o.quiet) print_paths(out, {"packing.png", "packing.svg", "statistics.json"});
     return done;
 }
 
@@ -55,20 +55,20 @@ int run(cartilage::options const& o) {
     cartilage::run_result const result = cartilage::simulate(specimen, o, out, o.quiet ? nullptr : stderr, damage);
     lacuna::save_packing(out.file("packing"), cartilage::scene_of(specimen, o));
     lacuna::save_damage(out.file("damage"), damage);
-    // Last, because its presence says that the run is finished.
+    // Last, because its presence means that the run is finished.
     cartilage::write_summary(out.file("summary.json"), o, result);
     if (!o.quiet) {
         cartilage::print_result(stdout, o, result);
-        say_where(out, {"packing.png", "packing.svg", "damage.png", "damage.svg", "cracks.csv", "summary.json"});
+        print_paths(out, {"packing.png", "packing.svg", "damage.png", "damage.svg", "cracks.csv", "summary.json"});
     }
     return result.interrupted ? interrupted() : done;
 }
 
 /// Commands that read their own options.
 constexpr cartilage::command_name further_commands[] = {
-    {"study", "Find the loads of Table 3 for many packings; 'study merge' puts parts together"},
-    {"sensitivity", "What each choice that the paper leaves open does to these loads"},
-    {"calibrate", "Fit chosen ones of the open choices to the paper's eleven numbers"}};
+    {"study", "Find the loads of Table 3 for many packings; 'study merge' joins parts"},
+    {"sensitivity", "Show the effect of each open choice on these loads"},
+    {"calibrate", "Fit open choices to the paper's eleven loads"}};
 
 int study(int argc, char** argv) {
     auto const o = cartilage::parse_study_command_line(argc, argv);
@@ -91,7 +91,7 @@ int calibrate(int argc, char** argv) {
     return cartilage::calibrate(*o);
 }
 
-int obey(int argc, char** argv) {
+int run_command(int argc, char** argv) {
     std::string_view const command = argc > 1 ? argv[1] : "";
     if (command == "study") return study(argc - 1, argv + 1);
     if (command == "sensitivity") return sensitivity(argc - 1, argv + 1);
@@ -105,7 +105,7 @@ int obey(int argc, char** argv) {
 
 int main(int argc, char** argv) {
     try {
-        int const status = obey(argc, argv);
+        int const status = run_command(argc, argv);
         programs::finish_output();
         return status;
     } catch (cartilage::usage_error const& bad) {
@@ -115,7 +115,7 @@ int main(int argc, char** argv) {
         std::fprintf(stderr, "cartilage: %s\n", bad.what());
         return bad_request;
     } catch (cartilage::interruption const&) {
-        std::fprintf(stderr, "cartilage: stopped by %s; the same command goes on from here\n",
+        std::fprintf(stderr, "cartilage: stopped by %s; the same command continues from here\n",
                      lacuna::signal_name(lacuna::stop_signal()).c_str());
         return interrupted();
     } catch (lacuna::unstable_run const& bad) {

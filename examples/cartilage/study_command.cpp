@@ -19,7 +19,7 @@ namespace cartilage {
 
 namespace {
 
-/// Names of the files that a study leaves.
+/// Names of the files that a study writes.
 std::vector<std::string> study_results() {
     auto names = report_files();
     names.push_back(study_file);
@@ -43,16 +43,16 @@ void print_study(std::FILE* out, study_result const& study) {
                      median_text(study.packings, zone, threshold::capacity).c_str(),
                      median_text(study.packings, zone, threshold::complete).c_str(), invalid, runs);
     }
-    std::fprintf(out, "  medians, MPa; -: above the highest load, <: below the lowest, ?: not to be had\n");
+    std::fprintf(out, "  medians, MPa; -: above the highest load, <: below the lowest, ?: undecided\n");
 }
 
-/// Writes the results of a study; the report only of a whole one.
+/// Writes the results of a study, and the report if it is whole.
 void write_study(study_options const& o, lacuna::run_directory& out, study_result const& study, bool whole) {
     unfinished_mark const mark(out, "study");
     mark.begin_results();
     if (!o.quiet) print_study(stdout, study);
     if (whole) write_report(o.out, study);
-    // Last, because its presence says that the study is finished.
+    // Last, because its presence means that the study is finished.
     write_whole(out.file(study_file), text_of(study));
     mark.end();
     if (o.quiet) return;
@@ -72,7 +72,7 @@ int merge(study_options const& o) {
 
 int study(study_options const& o) {
     if (!o.merge.empty()) return merge(o);
-    // Results of the same study give way to the new ones once these are there.
+    // Results of the same study stay until the new ones are ready.
     lacuna::run_directory out(o.out, "--out", study_results(), lacuna::earlier_results::replace);
     if (!o.force) refuse_other_study(o.out, study_frame(o));
     unfinished_mark const mark(out, "study");
@@ -86,8 +86,8 @@ int study(study_options const& o) {
     }
     write_study(o, out, result, o.shards == 1);
     if (!o.quiet)
-        std::printf("%zu runs; kept from before: %zu packings, %zu runs\n", report.runs, report.packings_kept,
-                    report.runs_kept);
+        std::printf("%zu runs; from the cache: %zu packings, %zu runs\n", report.runs, report.packings_from_cache,
+                    report.runs_from_cache);
     return 0;
 }
 

@@ -5,7 +5,7 @@
 
 namespace cartilage {
 
-/// `cartilage study`: runs a study, or the part of it that is asked for, or puts parts together; and reports.
+/// The command `cartilage study`: runs a study or a shard, or joins shards; then writes the results.
 /// \return the exit status \throws usage_error, std::invalid_argument, interruption
 int study(study_options const& o);
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# Tests of the program as a person uses it: one ctest test per case of check.cmake.
+# Tests of the program through its command line: one test of ctest for each case of check.cmake.
 
 foreach(case IN ITEMS refusals pack run dry same_twice no_overwrite owner interrupted unstable study_refusals study choices sensitivity calibrate)
   add_test(NAME "cartilage: ${case}"

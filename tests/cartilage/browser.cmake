@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# cmake -D WRITER=... -D CHROMIUM=... -D SCRATCH=... [-D REPORT=page.html] -P browser.cmake: opens the report in headless
-# Chromium at 1280 and 390 pixels and measures it; then a page with every fault that is looked for, which has to be found.
+# cmake -D WRITER=... -D CHROMIUM=... -D SCRATCH=... [-D REPORT=page.html] -P browser.cmake
+# Opens the report in headless Chromium at 1280 and 390 pixels and measures it. Then does the same with a page that has each
+# fault that the script looks for, and checks that it finds them.
 
 cmake_minimum_required(VERSION 3.25)
 
@@ -16,8 +17,8 @@ else()
   endif()
 endif()
 
-# measure(page width): sets <what> of `found` for tables, pictures, unloaded, nameless, clipped, scrolls, and errors: what
-# the console said. A window is 500 pixels wide at least: the page is shown in a frame.
+# measure(page width): sets width, tables, pictures, unloaded, nameless, cut, scrolls, and console: the messages of the
+# browser's console. The page is shown in a frame, because windows are at least 500 pixels wide.
 function(measure page width)
   file(WRITE "${SCRATCH}/frame.html" "<!DOCTYPE html><html><body style=\"margin:0\">
 <iframe id=\"frame\" src=\"${page}\" style=\"width:${width}px;height:900px;border:0\"></iframe><pre id=\"found\"></pre>
@@ -25,7 +26,7 @@ function(measure page width)
 onload = () => {
   const page = document.getElementById('frame').contentDocument, root = page.documentElement;
   const pictures = [...page.images];
-  // Figures that reach beyond their page although nothing scrolls: cut.
+  // Elements that extend beyond the page are cut off, because the page does not scroll.
   const cut = [...page.querySelectorAll('h1, h2, p, img, figcaption')].filter(
     (e) => e.getBoundingClientRect().right > root.clientWidth + 0.5);
   document.getElementById('found').textContent = 'found ' + JSON.stringify({
@@ -36,7 +37,7 @@ onload = () => {
 };
 </script></body></html>
 ")
-  # A profile of its own each time: nothing of the user's, nothing kept.
+  # A new profile each time, so that no user setting and no earlier page matters.
   file(REMOVE_RECURSE "${SCRATCH}/profile")
   execute_process(
     COMMAND "${CHROMIUM}" --headless --no-sandbox --disable-gpu --disable-quic --no-first-run
@@ -53,8 +54,8 @@ onload = () => {
     string(JSON value GET "${found}" ${what})
     set(${what} "${value}" PARENT_SCOPE)
   endforeach()
-  string(REGEX MATCHALL "[^\n]*CONSOLE[^\n]*" said "${err}")
-  set(said "${said}" PARENT_SCOPE)
+  string(REGEX MATCHALL "[^\n]*CONSOLE[^\n]*" console "${err}")
+  set(console "${console}" PARENT_SCOPE)
 endfunction()
 
 function(expect)
@@ -68,8 +69,8 @@ foreach(wanted IN ITEMS 1280 390)
   measure(report/report.html ${wanted})
   expect("width EQUAL ${wanted} AND scrolls LESS_EQUAL 0 AND cut EQUAL 0")
   expect("tables GREATER_EQUAL 3 AND pictures GREATER_EQUAL 7 AND unloaded EQUAL 0 AND nameless EQUAL 0")
-  if(NOT said STREQUAL "")
-    message(FATAL_ERROR "the console says ${said}")
+  if(NOT console STREQUAL "")
+    message(FATAL_ERROR "the console has ${console}")
   endif()
 endforeach()
 
@@ -79,4 +80,4 @@ string(REPLACE "</body>" "<p style=\"width:1500px\">wide</p><img src=\"data:imag
 file(WRITE "${SCRATCH}/faulty.html" "${page}")
 measure(faulty.html 390)
 expect("scrolls GREATER 0 AND cut EQUAL 1 AND unloaded EQUAL 2 AND nameless EQUAL 1")
-expect("said MATCHES example.invalid AND said MATCHES script")
+expect("console MATCHES example.invalid AND console MATCHES script")

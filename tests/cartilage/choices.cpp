@@ -47,7 +47,7 @@ TEST_CASE("choices read back what they write") {
     CHECK(text_of(preset_choices("literal")).empty());
     CHECK(text_of(preset_choices("lattice")) == "packing = lattice\n");
 
-    // The file that the calibration has left, but for its first line, the misfit.
+    // The file written by the calibration, without its first line, the misfit.
     std::ifstream file(std::string(CARTILAGE_FOLDER) + "/data/calibrated/best.choices");
     std::string const best{std::istreambuf_iterator<char>(file), {}};
     REQUIRE(best.find('\n') != std::string::npos);
@@ -75,7 +75,7 @@ TEST_CASE("bad choices are refused by name, value and rule") {
     refused("fill = 0.8\ndeep_fraction = 0.8", "deep_fraction + surface_fraction = 1.13333");
     refused("minimum_pressure = 0\nbond_moment = 1", "minimum_pressure = 0: must be -inf with a bond_moment");
     CHECK_THROWS_WITH(preset_choices("odd"), "preset = odd: must be one of literal, lattice, calibrated");
-    // What stands for "none" is allowed beside the range.
+    // Values that mean "none" are allowed outside the range.
     set_choices(c, "duration = 0\nmerge_conductance = inf\nminimum_pressure = -inf", "here");
     CHECK(c == choices{});
 }
@@ -93,26 +93,26 @@ TEST_CASE("the search of a calibration finds a known optimum", "[calibration]") 
     request.evaluations = 60;
     auto const tried = calibrate(request, misfit);
     CHECK(tried.size() <= 60);
-    CHECK(tried.front().open == request.start);
+    CHECK(tried.front().choices == request.start);
     auto const& best = tried[best_of(tried)];
     CHECK(best.misfit < 0.11);
-    CHECK(best.open.load == load_rule::platen);
-    CHECK(std::fabs(std::log(best.open.thickness / 4)) < 0.12);
-    CHECK(std::fabs(std::log(best.open.duration / 10)) < 0.15);
+    CHECK(best.choices.load == load_rule::platen);
+    CHECK(std::fabs(std::log(best.choices.thickness / 4)) < 0.12);
+    CHECK(std::fabs(std::log(best.choices.duration / 10)) < 0.15);
     for (std::size_t k = 0; k < tried.size(); ++k) {
-        choices rest = tried[k].open;
+        choices rest = tried[k].choices;
         rest.thickness = request.start.thickness;
         rest.duration = request.start.duration;
         rest.load = request.start.load;
         CHECK(rest == request.start); // nothing else has changed
-        for (std::size_t j = 0; j < k; ++j) CHECK_FALSE(tried[k].open == tried[j].open);
+        for (std::size_t j = 0; j < k; ++j) CHECK_FALSE(tried[k].choices == tried[j].choices);
     }
-    // The same again, from what was kept as it were: the search has no chance in it.
+    // A second search tries the same sets: nothing in it is random.
     auto const again = calibrate(request, misfit);
     REQUIRE(again.size() == tried.size());
-    for (std::size_t k = 0; k < tried.size(); ++k) CHECK(again[k].open == tried[k].open);
+    for (std::size_t k = 0; k < tried.size(); ++k) CHECK(again[k].choices == tried[k].choices);
 
-    // Sets that cannot be had are passed over; the search may end early.
+    // Impossible sets are skipped, and the search may end early.
     request.misfit_enough = 0.15;
     auto const picky = calibrate(request, [&](choices const& c) {
         return c.thickness > 6 ? std::numeric_limits<double>::quiet_NaN() : misfit(c);
@@ -120,7 +120,7 @@ TEST_CASE("the search of a calibration finds a known optimum", "[calibration]") 
     CHECK(picky.size() < tried.size());
     CHECK(picky.back().misfit <= 0.15);
 
-    // Words alone: every one, with what numbers there are.
+    // With words alone all combinations are tried.
     request = {};
     request.free = {&find_choice("drainage"), &find_choice("load")};
     request.evaluations = 100;
@@ -157,26 +157,26 @@ TEST_CASE("packings are compared in pairs") {
     std::vector<packing_result> const after{packing(3, 20, 100, 30), packing(1, 60, 160, 50), packing(2, 10, 90, 200)};
     auto const changes = compare(before, after);
     REQUIRE(changes.size() == 3);
-    // First crack: 1.5, 0.5 and 2 times: the middle one is 1.5.
+    // First crack: factors 1.5, 0.5 and 2, median 1.5.
     CHECK(changes[0].pairs == 3);
     CHECK_THAT(changes[0].change, WithinRel(50.0, 1e-12));
     CHECK_THAT(changes[0].before, WithinRel(20.0, 1e-12));
     CHECK_THAT(changes[0].after, WithinRel(20.0, 1e-12));
     CHECK_THAT(changes[0].of_change.low, WithinRel(-50.0, 1e-12));
     CHECK_THAT(changes[0].of_change.high, WithinRel(100.0, 1e-12));
-    // Capacity: doubled twice, and one that came down from above the range.
+    // Capacity: doubled twice; the third came into the range from above.
     CHECK(changes[1].pairs == 3);
     CHECK_THAT(changes[1].change, WithinRel(100.0, 1e-12));
     CHECK(changes[1].of_change.low == -100);
-    // Complete: halved and doubled; the third was undecided.
+    // Complete: halved and doubled; the third is undecided before.
     CHECK(changes[2].pairs == 2);
     CHECK_THAT(changes[2].change, WithinAbs(0, 1e-9));
-    // Above the range both times: nothing is known of a change.
+    // Above the range both times: the change is unknown.
     std::vector<packing_result> const high{packing(2, 20, 0, 100)};
     CHECK(compare(high, high).size() == 2);
 }
 
-TEST_CASE("how far a set is from the paper") {
+TEST_CASE("the misfit of a set is its distance from the paper's loads") {
     std::vector<packing_result> all{packing(1, 45, 48, 53), packing(2, 45, 96, 53), packing(3, 45, 0, 53)};
     auto const targets = targets_of(all);
     REQUIRE(targets.size() == 3); // the surface zone alone
@@ -194,7 +194,7 @@ TEST_CASE("how far a set is from the paper") {
     CHECK(misfit_of(targets_of({whole})) == 0);
 }
 
-TEST_CASE("whether the first layer failed first") {
+TEST_CASE("packings in which the first layer fails first are counted") {
     auto const run = [](double load, std::optional<double> first, std::optional<double> second) {
         load_run p;
         p.load_MPa = load;
@@ -205,7 +205,7 @@ TEST_CASE("whether the first layer failed first") {
     };
     std::vector<packing_result> all{packing(1, 40, 60, 70), packing(2, 40, 60, 70), packing(3, 40, 60, 70),
                                     packing(4, 40, 0, 70)};
-    all[0].runs = {run(60, 2e-9, 3e-9), run(70, 2e-9, 1e-9)}; // at its capacity load the first was first
+    all[0].runs = {run(60, 2e-9, 3e-9), run(70, 2e-9, 1e-9)}; // at its capacity load the first layer is first
     all[1].runs = {run(60, 2e-9, 1e-9)};
     all[2].runs = {run(60, 2e-9, std::nullopt)};
     auto const counts = first_layers_of(all);
@@ -214,7 +214,7 @@ TEST_CASE("whether the first layer failed first") {
     CHECK(counts[0].packings == 3);
 }
 
-TEST_CASE("another domain or duration goes with the choices") {
+TEST_CASE("domain and duration follow the choices") {
     options o;
     choices wide;
     wide.domain = domain_rule::wide;
@@ -224,6 +224,6 @@ TEST_CASE("another domain or duration goes with the choices") {
     CHECK(with_choices(o, wide).duration_ns == 5);
     CHECK_FALSE(with_choices(with_choices(o, wide), choices{}).duration_ns);
     CHECK(with_choices(with_choices(o, wide), choices{}).length_um == 120);
-    o.length_um = 84; // asked for
+    o.length_um = 84; // as if requested
     CHECK(with_choices(o, wide).length_um == 84);
 }

@@ -21,8 +21,8 @@ options request(std::string const& set = {}, lacuna::cartilage_zone zone = lacun
     o.height_um = 42;
     o.load_MPa = 30;
     o.pair_forces = true;
-    set_choices(o.open, set, "test");
-    if (o.open.duration > 0) o.duration_ns = o.open.duration;
+    set_choices(o.choices, set, "test");
+    if (o.choices.duration > 0) o.duration_ns = o.choices.duration;
     return o;
 }
 
@@ -41,13 +41,13 @@ auto run(options const& o, long long steps) {
     return sim;
 }
 
-/// Downward force on a loaded particle in the first step, when all pairs are still at rest.
+/// Downward force on a loaded particle in the first step, over its loaded area, Pa. All pairs are still at rest.
 template <class Model>
-double load_on(options const& o, double radius_power_area(double radius, double thickness)) {
+double load_on(options const& o, double area(double radius, double thickness)) {
     auto const s = build_specimen(o);
     auto const sim = run<Model>(o, 1);
     auto const id = std::size_t(s.loaded.front());
-    return -sim->force(id)[1] / radius_power_area(sim->radius(id), s.thickness);
+    return -sim->force(id)[1] / area(sim->radius(id), s.thickness);
 }
 
 double disc_face(double r, double) { return std::numbers::pi * r * r; }
@@ -62,34 +62,34 @@ TEST_CASE("the load is its pressure times the chosen area, and rises as chosen")
                                   [](double r, double) { return 2 * r * 7e-6; }),
                WithinRel(30e6, 1e-9));
     CHECK_THAT(load_on<dry_model>(request("ramp_time = 1"), disc_face), WithinAbs(0, 1e-6));
-    // Half of it after half of the ramp: what the loads do in a step is their power.
+    // During the ramp the load is proportional to time.
     auto const o = request("ramp_time = 0.1");
     auto const s = build_specimen(o);
     auto const sim = run<dry_model>(o, 4);
     auto const id = std::size_t(s.loaded.front());
     auto const k = sim->particles().internal(id);
     double const full = 30e6 * std::numbers::pi * sim->radius(id) * sim->radius(id);
-    // The last step's load is that of its beginning.
+    // The load of a step is that at its beginning.
     double const share = (sim->time() - sim->time_step()) / 0.1e-9;
     REQUIRE(share > 0.05);
     CHECK_THAT(-double(sim->particles().load(std::size_t(k))[1]), WithinRel(share * full, 1e-9));
 }
 
-TEST_CASE("the time step is the share of the bound that is asked for") {
+TEST_CASE("the time step is the requested share of the bound") {
     auto o = request();
     auto const usual = run<dry_model>(o, 1);
     CHECK_THAT(usual->time_step(), WithinRel(0.4 * usual->limits().critical(), 1e-6));
     o.step_share = 0.8;
     CHECK_THAT(run<dry_model>(o, 1)->time_step(), WithinRel(2 * usual->time_step(), 1e-12));
-    // One that is asked for is taken; one that is not stable only where that is asked for, too.
+    // A requested step is used; an unstable step needs --allow-unstable-step.
     o.time_step_ps = 14.39;
     CHECK_THROWS_WITH(load_specimen<dry_model>(build_specimen(o), o),
                       contains_text("--time-step: time_step = 1.439e-11: must be at most the stable limit") &&
                           contains_text("--allow-unstable-step"));
     o.allow_unstable_step = true;
-    auto const asked = load_specimen<dry_model>(build_specimen(o), o);
-    CHECK_THAT(asked->time_step(), WithinRel(14.39e-12, 1e-12));
-    CHECK(asked->time_step() > asked->limits().critical());
+    auto const unstable = load_specimen<dry_model>(build_specimen(o), o);
+    CHECK_THAT(unstable->time_step(), WithinRel(14.39e-12, 1e-12));
+    CHECK(unstable->time_step() > unstable->limits().critical());
 }
 
 TEST_CASE("a platen moves as one, a free load does not") {
@@ -110,7 +110,7 @@ TEST_CASE("a platen moves as one, a free load does not") {
         CHECK((fastest - slowest < 1e-9 * std::fabs(mean)) == platen);
         CHECK(std::fabs(sim->energy().residual()) < 1e-3 * sim->energy().largest());
         if (!platen) continue;
-        // It accelerates under the sum of the forces on it.
+        // The platen accelerates under the sum of the forces on it.
         auto const more = run<dry_model>(o, 151);
         auto const first = std::size_t(s.loaded[0]);
         double const gained = more->velocity(first)[1] - sim->velocity(first)[1];
@@ -132,12 +132,12 @@ TEST_CASE("masses, strengths and links as chosen") {
     CHECK_THAT(of_mass("thickness = 1"), WithinRel(2000 * pi * r * r * 1e-6, 1e-12));
     CHECK_THAT(of_mass("mass = sphere"), WithinRel(2000 * 4 / 3.0 * pi * r * r * r, 1e-12));
 
-    CHECK(bond_strengths(s, request().open).empty());
+    CHECK(bond_strengths(s, request().choices).empty());
     auto const smaller = [](specimen const& one, std::size_t b) {
         auto const [i, j] = one.discs.bonds[b];
         return std::min(one.discs.radius[std::size_t(i)], one.discs.radius[std::size_t(j)]);
     };
-    auto const discs = bond_strengths(s, request("bond_area = disc").open);
+    auto const discs = bond_strengths(s, request("bond_area = disc").choices);
     REQUIRE(discs.size() == s.discs.bonds.size());
     CHECK_THAT(*discs[3].tensile_force, WithinRel(2e8 * pi * smaller(s, 3) * smaller(s, 3), 1e-12));
     CHECK(discs[3].shear_force == discs[3].tensile_force);
@@ -147,12 +147,12 @@ TEST_CASE("masses, strengths and links as chosen") {
     tall.height_um = 75;
     auto const w = build_specimen(tall);
     REQUIRE(w.matrix_links > 100);
-    auto const values = bond_strengths(w, tall.open);
+    auto const values = bond_strengths(w, tall.choices);
     REQUIRE(values.size() == w.discs.bonds.size());
     std::size_t const of_fibres = values.size() - w.fibre_links - w.matrix_links;
     for (std::size_t b = 0; b < values.size(); ++b) {
         auto const [i, j] = w.discs.bonds[b];
-        // Table 1 by material; next to matrix the fibre's alone counts.
+        // Table 1 by material. Beside a free particle only the fibre's strength counts.
         double const table[] = {1e300, 2e8, 9e8, 1e9};
         double const strength = std::min(table[w.discs.material[std::size_t(i)]], table[w.discs.material[std::size_t(j)]]);
         double const share = b < of_fibres ? 1 : b < of_fibres + w.fibre_links ? 0.5 : 0.25;
@@ -198,13 +198,13 @@ TEST_CASE("walls, friction, damping, fluid and boundary as chosen") {
     CHECK(all[2] > 10);
     auto const top = drained("drainage = top");
     CHECK(top[0] > 15);
-    CHECK(top[1] + top[2] <= 2); // a corner may lie lower
+    CHECK(top[1] + top[2] <= 2); // a corner may be lower
     CHECK(drained("drainage = sealed") == std::array<int, 3>{0, 0, 0});
 }
 
-TEST_CASE("bonds with a moment and fast fluids have models of their own") {
+TEST_CASE("bonds with a moment and fast fluids have separate models") {
     auto const name = [](char const* set, bool dry) {
-        return visit_model(request(set).open, dry, []<class Model>(std::type_identity<Model>) {
+        return visit_model(request(set).choices, dry, []<class Model>(std::type_identity<Model>) {
             return std::string(lacuna::carries_moment<typename Model::bond_law> ? "beam" : "spring") +
                    (lacuna::has_fluid<Model> ? " wet" : " dry") +
                    (std::is_same_v<typename Model::flow, lacuna::implicit_flow> ? " implicit" : "");
@@ -218,7 +218,7 @@ TEST_CASE("bonds with a moment and fast fluids have models of their own") {
     CHECK(name("conductivity = 83", true) == "spring dry");
     auto const beam = request("bond_moment = 0.5");
     CHECK(load_specimen<dry_beam_model>(build_specimen(beam), beam)->settings().materials[1].bond.bending_ratio == 0.5);
-    // Without a moment and without flow the models agree: the specimen sinks as far under its load.
+    // Without moment and almost without flow both models give the same displacement of the loaded row.
     auto const plain = request();
     auto const s = build_specimen(plain);
     auto const one = run<wet_model>(plain, 100);
@@ -237,7 +237,7 @@ TEST_CASE("a run ends as chosen") {
     CHECK_FALSE(fixed.is_quiet(0, 1, 0));
     ending quiet(request("longest = 12\nquiet_fraction = 0.01\nquiet_time = 2"));
     CHECK_THAT(quiet.longest(), WithinRel(12e-9, 1e-12));
-    CHECK_FALSE(quiet.is_quiet(1, 1e-9, 0));       // the most there has been
+    CHECK_FALSE(quiet.is_quiet(1, 1e-9, 0));       // the largest so far
     CHECK_FALSE(quiet.is_quiet(0.011, 5e-9, 1e-9)); // still moving
     CHECK_FALSE(quiet.is_quiet(0.009, 5e-9, 3.5e-9)); // broke a moment ago
     CHECK(quiet.is_quiet(0.009, 5.6e-9, 3.5e-9));

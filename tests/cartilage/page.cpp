@@ -20,9 +20,9 @@ struct scratch {
     std::string file(char const* name) const { return path + "/" + name; }
 };
 
-std::size_t count(std::string const& text, std::string const& what) {
+std::size_t count(std::string const& text, std::string const& word) {
     std::size_t n = 0;
-    for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) ++n;
+    for (std::size_t pos = text.find(word); pos != std::string::npos; pos = text.find(word, pos + 1)) ++n;
     return n;
 }
 } // namespace
@@ -43,7 +43,7 @@ TEST_CASE("text of a page is escaped") {
     CHECK_THROWS_WITH(cartilage::file_bytes("/nowhere/x.png"), contains_text("/nowhere/x.png"));
 }
 
-TEST_CASE("a report holds its table, its figures and what does not count, and comes out the same twice") {
+TEST_CASE("a report has its table, its figures and its invalid runs, and is the same twice") {
     scratch a, b;
     auto study = synthetic_study(3);
     cartilage::write_report(a.path, study);
@@ -51,7 +51,7 @@ TEST_CASE("a report holds its table, its figures and what does not count, and co
     std::string const page = cartilage::file_bytes(a.file("report.html"));
     CHECK(page == cartilage::file_bytes(b.file("report.html")));
     CHECK(count(page, "<table") == 4);
-    // 3 of loads, 4 zones with damage, first cracks, places and layers, 3 snapshots with their fronts.
+    // 3 of loads, 4 zones with damage, first cracks, positions and layers, 3 snapshots with fronts.
     CHECK(count(page, "<img ") == 25);
     CHECK(count(page, "<figcaption>") == 25);
     CHECK(count(page, "<script") == 0);
@@ -71,7 +71,7 @@ TEST_CASE("a report holds its table, its figures and what does not count, and co
     CHECK(std::filesystem::exists(b.file("damage-surface.png")));
 }
 
-TEST_CASE("a study that makes no sense is refused by name") {
+TEST_CASE("a study without packings or with bad numbers is refused by name") {
     scratch dir;
     cartilage::study_result study;
     CHECK_THROWS_WITH(cartilage::write_report(dir.path, study), contains_text("study.packings"));

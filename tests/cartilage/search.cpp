@@ -18,12 +18,13 @@ using namespace cartilage;
 
 namespace {
 
-constexpr double longest = 40e-9;       // s, of a made-up run
-constexpr double latest = 0.99 * longest; // s, when one may still meet a criterion
+constexpr double longest = 40e-9;         // s, duration of a synthetic run
+constexpr double latest = 0.99 * longest; // s, last time at which it meets a criterion
 
-/// A packing of which all is known: the loads from which on each criterion is met, and loads at which no run counts. At
-/// those loads a run meets it in its last moment, at higher ones in inverse proportion to the load. Counts its runs.
-struct made_up {
+/// A packing with known loads. Each criterion is met from its load on: at that load at the last moment of a run, at
+/// higher loads at a time in inverse proportion to the load. Runs between bad_from and bad_to are invalid. Counts its
+/// runs.
+struct synthetic_packing {
     double first, capacity, complete;
     double bad_from = 1e9, bad_to = 0;
     std::map<double, double> simulated{}; // time, s, by load
@@ -46,12 +47,12 @@ struct made_up {
         std::optional<double> const times[] = {time_of(first, load), time_of(capacity, load),
                                                time_of(complete, load)};
         double const until = times[int(c)].value_or(longest);
-        // A run is continued, never begun anew.
-        if (until <= done) throw std::logic_error("run again");
+        // A run is continued, never restarted.
+        if (until <= done) throw std::logic_error("run restarted");
         p.end_time = done = until;
         p.first_layer_fraction = std::min(1.0, 0.5 * load / capacity) * until / longest;
         if (load >= bad_from && load <= bad_to) {
-            p.invalid = "made up";
+            p.invalid = "synthetic";
             p.ended = "invalid";
             return p;
         }
@@ -67,7 +68,7 @@ struct made_up {
     }
 };
 
-packing_result search(made_up& packing, load_range const& range = {}) {
+packing_result search(synthetic_packing& packing, load_range const& range = {}) {
     return find_thresholds(range, [&](double load, criterion c) { return packing(load, c); });
 }
 
@@ -75,7 +76,7 @@ bool within_a_step(double found, double truth) { return found >= truth && found 
 
 } // namespace
 
-TEST_CASE("The grid of loads reaches from end to end in equal ratios that are no larger than the resolution") {
+TEST_CASE("The grid of loads covers the range in equal ratios no larger than the resolution") {
     load_range range;
     // ln(200) / ln(1.02) = 267.6
     CHECK(range.steps() == 268);
@@ -84,12 +85,12 @@ TEST_CASE("The grid of loads reaches from end to end in equal ratios that are no
     for (int k = 1; k <= 268; ++k) {
         CHECK(range.load(k) / range.load(k - 1) < 1.02 + 1e-3); // four digits of each load
         CHECK(range.load(k) > range.load(k - 1));
-        CHECK(range.place(range.load(k)) == k);
+        CHECK(range.nearest_index(range.load(k)) == k);
     }
     // sqrt(5 * 1000) lies in the middle.
     CHECK(range.load(134) == 70.71);
-    CHECK(range.place(1) == 0);
-    CHECK(range.place(1e6) == 268);
+    CHECK(range.nearest_index(1) == 0);
+    CHECK(range.nearest_index(1e6) == 268);
     range.highest_MPa = 5;
     CHECK_THROWS_AS(range.steps(), std::invalid_argument);
     range.highest_MPa = 1000;
@@ -97,11 +98,11 @@ TEST_CASE("The grid of loads reaches from end to end in equal ratios that are no
     CHECK_THROWS_AS(range.steps(), std::invalid_argument);
 }
 
-TEST_CASE("The search finds each load to one step, wherever it is and wherever it begins") {
+TEST_CASE("The search finds each load to one step, for any load and any guess") {
     for (double const guess : {5.0, 45.0, 1000.0})
         for (double const first : {5.5, 12.0, 44.0, 170.0, 700.0})
             for (double const ratio : {1.0, 1.01, 1.3, 4.0}) {
-                made_up packing{first, first * ratio, first * ratio * ratio};
+                synthetic_packing packing{first, first * ratio, first * ratio * ratio};
                 load_range range;
                 range.first_guess = {guess, guess, guess};
                 auto const r = search(packing, range);
@@ -116,37 +117,37 @@ TEST_CASE("The search finds each load to one step, wherever it is and wherever i
                     CHECK(r.found.no_capacity == "above 1000 MPa");
                 }
                 CHECK(r.found.complete_MPa.has_value() == (packing.complete <= 1000));
-                // Nine halvings of 268 steps for each load, and the way to the first bracket.
+                // Nine halvings of 268 steps for each load, and a few runs for the first bracket.
                 CHECK(packing.calls <= 3 * 15);
             }
 }
 
-TEST_CASE("A good guess and a search that weighs the time of its runs save most of it") {
-    // Six runs at least, of each load the one that does not meet its criterion and the one that does at the very end. Halving the
-    // range instead takes eight for each load, and these between 0.2 and 1 of the longest time.
+TEST_CASE("A good guess and the choice of short runs save most of the run time") {
+    // At least six runs: for each load one that does not meet its criterion and one that meets it at its end. Halving
+    // the range takes eight runs for each load, of 0.2 to 1 of the longest duration.
     for (double const off : {0.8, 1.0, 1.25}) {
-        made_up packing{25, 110, 200};
+        synthetic_packing packing{25, 110, 200};
         load_range range;
         range.first_guess = {25 * off, 110 * off, 200 * off};
         search(packing, range);
         CHECK(packing.time() > 6 * 0.97 * longest);
         CHECK(packing.time() < 19 * longest);
     }
-    // A load above the range takes no more than the one run at its end, which serves both.
-    made_up strong{170, 1500, 1200};
+    // Loads above the range need only one run at the end of the range, for both criteria.
+    synthetic_packing strong{170, 1500, 1200};
     load_range range;
     range.first_guess = {170, 1500, 1500};
     auto const r = search(strong, range);
     CHECK(r.found.no_capacity == "above 1000 MPa");
     CHECK(r.found.no_complete == "above 1000 MPa");
     int above_first = 0;
-    for (load_run const& p : r.runs) above_first += p.whole() && p.first_crack_time.has_value();
+    for (load_run const& p : r.runs) above_first += p.ran_to_end() && p.first_crack_time.has_value();
     CHECK(above_first == 1);
 }
 
-TEST_CASE("Complete damage is found where it comes before the first layer's") {
+TEST_CASE("Complete damage is found if it comes before the capacity") {
     for (double const capacity : {600.0, 2000.0}) {
-        made_up packing{170, capacity, 300};
+        synthetic_packing packing{170, capacity, 300};
         auto const r = search(packing);
         REQUIRE(r.found.complete_MPa);
         CHECK(within_a_step(*r.found.first_crack_MPa, 170));
@@ -157,23 +158,23 @@ TEST_CASE("Complete damage is found where it comes before the first layer's") {
     }
 }
 
-TEST_CASE("Loads out of range are none, with the side on which they lie") {
-    made_up strong{2000, 3000, 4000};
+TEST_CASE("Loads outside the range are missing, and the reason names the side") {
+    synthetic_packing strong{2000, 3000, 4000};
     auto const above = search(strong);
     CHECK_FALSE(above.found.first_crack_MPa);
     CHECK(above.found.no_first_crack == "above 1000 MPa");
     CHECK(above.found.no_capacity == "above 1000 MPa");
     CHECK(above.found.no_complete == "above 1000 MPa");
-    made_up weak{1, 2, 3};
+    synthetic_packing weak{1, 2, 3};
     auto const below = search(weak);
     CHECK_FALSE(below.found.first_crack_MPa);
     CHECK(below.found.no_first_crack == "below 5 MPa");
     CHECK(below.found.no_complete == "below 5 MPa");
 }
 
-TEST_CASE("Runs that do not count are passed by") {
-    // A gap in the loads of less than the runs that the search gives up after.
-    made_up packing{44, 80, 200};
+TEST_CASE("The search avoids invalid runs") {
+    // The invalid loads are fewer than the invalid runs that end the search.
+    synthetic_packing packing{44, 80, 200};
     packing.bad_from = 50;
     packing.bad_to = 53;
     auto const r = search(packing);
@@ -182,8 +183,8 @@ TEST_CASE("Runs that do not count are passed by") {
     CHECK(within_a_step(*r.found.capacity_MPa, 80));
     CHECK(within_a_step(*r.found.complete_MPa, 200));
 
-    // Nothing counts around the load that is sought.
-    made_up hidden{44, 80, 200};
+    // All runs around the load sought are invalid.
+    synthetic_packing hidden{44, 80, 200};
     hidden.bad_from = 60;
     hidden.bad_to = 1000;
     auto const h = search(hidden);
@@ -196,7 +197,7 @@ TEST_CASE("Runs that do not count are passed by") {
 }
 
 TEST_CASE("The first crack is never above the other loads, whatever the outcomes") {
-    // Answers without any order at all, from the digits of the load.
+    // Outcomes without any order, from the digits of the load.
     for (std::uint64_t salt = 1; salt < 200; ++salt) {
         std::map<double, load_run> runs;
         auto const r = find_thresholds({}, [&](double load, criterion c) {
@@ -209,7 +210,7 @@ TEST_CASE("The first crack is never above the other loads, whatever the outcomes
             if (reached > 2) p.complete_time = 3e-9;
             p.ended = meets(p, c) ? name_of(c) : "limit";
             p.end_time = time_met(p, c).value_or(longest);
-            if (!p.whole()) {
+            if (!p.ran_to_end()) {
                 if (c < criterion::complete) p.complete_time.reset();
                 if (c < criterion::capacity) p.capacity_time.reset();
             }
@@ -220,7 +221,7 @@ TEST_CASE("The first crack is never above the other loads, whatever the outcomes
         double const complete = r.found.complete_MPa.value_or(r.found.no_complete[0] == 'b' ? 0 : 1e9);
         CHECK(first <= capacity);
         CHECK(first <= complete);
-        // Each is the upper one of two neighbours: its criterion is met there, and not at the lower one.
+        // The criterion is met at the load found, and not at the next lower load.
         auto const at = [&](double load) {
             return std::find_if(r.runs.begin(), r.runs.end(), [&](load_run const& p) { return p.load_MPa == load; });
         };
@@ -228,11 +229,11 @@ TEST_CASE("The first crack is never above the other loads, whatever the outcomes
                                       std::pair(r.found.capacity_MPa, criterion::capacity),
                                       std::pair(r.found.complete_MPa, criterion::complete)}) {
             if (!load) continue;
-            auto const yes = at(*load), no = at(load_range{}.load(load_range{}.place(*load) - 1));
+            auto const yes = at(*load), no = at(load_range{}.load(load_range{}.nearest_index(*load) - 1));
             REQUIRE(yes != r.runs.end());
             REQUIRE(no != r.runs.end());
             CHECK(meets(*yes, c));
-            CHECK((no->whole() && !meets(*no, c)));
+            CHECK((no->ran_to_end() && !meets(*no, c)));
         }
         for (std::size_t k = 1; k < r.runs.size(); ++k) CHECK(r.runs[k - 1].load_MPa < r.runs[k].load_MPa);
     }

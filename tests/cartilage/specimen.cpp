@@ -36,7 +36,7 @@ int collagen_of(cartilage_zone zone) {
     return zone == cartilage_zone::surface ? 1 : zone == cartilage_zone::middle ? 2 : 3;
 }
 
-/// What holds for every specimen: numbers that fit together, straight touching fibres, no overlap.
+/// Checks what holds for every specimen: consistent indices, straight touching fibres, no overlap.
 void is_consistent(cartilage_specimen<double> const& s, cartilage_specimen_parameters const& p) {
     auto const& d = s.discs;
     REQUIRE(s.fibre.size() == d.size());
@@ -98,7 +98,7 @@ void is_consistent(cartilage_specimen<double> const& s, cartilage_specimen_param
     for (auto i : s.fixed) REQUIRE(std::find(s.top.begin(), s.top.end(), i) == s.top.end());
 }
 
-/// The discs that a push from the loaded row reaches through gaps of at most `tolerance` smaller radii.
+/// The discs connected to the loaded row by contacts with gaps up to `tolerance` smaller radii.
 std::vector<char> reached_from_top(cartilage_specimen<double> const& s, double tolerance) {
     auto const& d = s.discs;
     std::vector<char> reached(d.size(), 0);
@@ -117,7 +117,7 @@ std::vector<char> reached_from_top(cartilage_specimen<double> const& s, double t
     return reached;
 }
 
-/// Radius of the largest disc that would fit between the others, to the raster of 0.4 um.
+/// Radius of the largest disc that fits between the others, m, with its centre on a grid of 0.4 um.
 double largest_hole(cartilage_specimen<double> const& s) {
     double largest = 0;
     for (double y = 0; y <= s.height; y += 0.4e-6)
@@ -139,7 +139,7 @@ int fibres_of(cartilage_specimen<double> const& s, cartilage_zone zone) {
 
 } // namespace
 
-TEST_CASE("every zone is dense, consistent and hands a push from top to bottom", "[particles][specimen]") {
+TEST_CASE("every zone is dense and consistent, and contacts connect its top and bottom", "[particles][specimen]") {
     for (auto zone : all_zones)
         for (std::uint64_t seed : {1u, 5u, 42u}) {
             auto p = parameters(zone, seed);
@@ -152,7 +152,7 @@ TEST_CASE("every zone is dense, consistent and hands a push from top to bottom",
             REQUIRE(double(s.discs.size()) > full * 0.81);
             REQUIRE(double(s.discs.size()) < full * 0.87);
             REQUIRE(s.statistics.area_fraction > 0.81);
-            // Jammed discs without friction have 4 contacts each, less the few that rattle.
+            // Jammed discs without friction have 4 contacts each, except for a few loose ones.
             REQUIRE(s.statistics.mean_coordination > 3.95);
             REQUIRE(s.statistics.loose < 30);
             // A quarter of the discs at a spacing of four diameters.
@@ -162,7 +162,7 @@ TEST_CASE("every zone is dense, consistent and hands a push from top to bottom",
             auto const reached = reached_from_top(s, 0.02);
             for (auto i : s.fixed) REQUIRE(reached[std::size_t(i)] == 1);
             REQUIRE(std::count(reached.begin(), reached.end(), char(0)) < 30);
-            // No void below the loaded row: most of its discs touch something lower.
+            // No void below the loaded row: most of its discs touch a lower disc.
             int hanging = 0;
             for (auto i : s.loaded) {
                 bool rests = false;
@@ -183,7 +183,7 @@ TEST_CASE("every zone is dense, consistent and hands a push from top to bottom",
         }
 }
 
-TEST_CASE("the seed decides, and nothing else", "[particles][specimen]") {
+TEST_CASE("a specimen depends on its seed alone", "[particles][specimen]") {
     for (auto zone : all_zones) {
         auto p = parameters(zone, 9);
         p.height = 75e-6;
@@ -265,7 +265,7 @@ TEST_CASE("middle fibres form a network in all directions", "[particles][specime
                         packing_check::gap(d, std::size_t(end), j) < 1e-9 * 1.5e-6)
                         ++meeting;
         }
-        // As much fibre as parallel fibres at 14 um would have, less what did not fit and one fibre more at most.
+        // Total length of parallel fibres at 14 um, less pieces that did not fit, and at most one fibre more.
         REQUIRE(length > 0.9 * 120e-6 * 296e-6 / 14e-6);
         REQUIRE(length < 120e-6 * 296e-6 / 14e-6 + 60e-6);
         REQUIRE(meeting > 10);

@@ -35,15 +35,15 @@ TEST_CASE("links of a lattice, counted by hand", "[particles][specimen]") {
     std::size_t const plain = make_cartilage_specimen(p).discs.bonds.size();
     p.link_matrix = p.link_fibres = true;
     auto const s = make_cartilage_specimen(p);
-    // 34 discs of 3.5 um in a full row of 120 um, 33 in the rows between, and a fibre in every fifth row: each of the 33
-    // touches two discs of either row beside it, so that a fibre has 4 * 33 links, the one on top 2 * 33.
+    // Rows have 34 and 33 discs of 3.5 um in turn; every fifth row is a fibre. Two adjacent rows have 2 * 33 contacts,
+    // so that a fibre has 4 * 33 links and the top fibre 2 * 33.
     REQUIRE(s.fibres.size() == 8); // 39 rows, 3.03 um apart from 1.75 to 117 um: fibres in rows 38, 33, ... 3
     REQUIRE(s.fibre_links == 0);
     REQUIRE(s.matrix_links == 2 * 33 + 7 * 4 * 33);
     REQUIRE(s.discs.bonds.size() == plain + s.matrix_links);
 
-    // Fibres that stand apart by two diameters of columns that touch: a deep fibre's discs have two neighbours on
-    // either side, its lowest and its highest disc one less where the column beside it begins or ends higher or lower.
+    // Columns touch their neighbours: a disc of a deep fibre has two neighbours on each side, its lowest and its
+    // highest disc one, because the columns beside it are shorter.
     p = parameters(cartilage_zone::deep, specimen_preset::lattice, 120e-6);
     p.link_matrix = true;
     p.fibre_layers = 1;
@@ -54,7 +54,7 @@ TEST_CASE("links of a lattice, counted by hand", "[particles][specimen]") {
     REQUIRE(deep.matrix_links == 2 * 2 * 33);
 }
 
-TEST_CASE("links join what touches and nothing else", "[particles][specimen]") {
+TEST_CASE("links join exactly the touching pairs", "[particles][specimen]") {
     for (auto zone : {cartilage_zone::middle, cartilage_zone::whole}) {
         auto p = parameters(zone, specimen_preset::literal, 150e-6);
         auto const plain = make_cartilage_specimen(p);
@@ -85,7 +85,7 @@ TEST_CASE("links join what touches and nothing else", "[particles][specimen]") {
     }
 }
 
-TEST_CASE("fibres in a few layers alone", "[particles][specimen]") {
+TEST_CASE("fibres only in the given number of layers", "[particles][specimen]") {
     for (auto preset : {specimen_preset::literal, specimen_preset::lattice}) {
         CAPTURE(preset == specimen_preset::lattice);
         auto p = parameters(cartilage_zone::surface, preset, 120e-6);

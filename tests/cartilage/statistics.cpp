@@ -24,7 +24,7 @@ std::vector<double> ten_to(int count) {
 } // namespace
 
 TEST_CASE("quantiles lie between numbers in proportion") {
-    // Places 0.75 and 2.25 of 0..3 among 2, 4, 8, 20.
+    // Positions 0.75 and 2.25 of 0..3 among 2, 4, 8, 20.
     CHECK_THAT(quantile({20, 2, 8, 4}, 0.25), WithinAbs(2 + 0.75 * 2, 1e-12));
     CHECK_THAT(quantile({20, 2, 8, 4}, 0.75), WithinAbs(8 + 0.25 * 12, 1e-12));
     CHECK(median({20, 2, 8, 4}) == 6);
@@ -34,10 +34,10 @@ TEST_CASE("quantiles lie between numbers in proportion") {
     CHECK(quantile({3, 1, 2}, 1) == 3);
 }
 
-TEST_CASE("a number that lies beyond the range is above every other one") {
+TEST_CASE("infinite numbers are above or below all others") {
     CHECK(median({10, never, 20}) == 20);
     CHECK(median({10, never, never}) == never);
-    // Between 20 and something unknown above: unknown, above.
+    // Between 20 and an unknown number above the range: above the range.
     CHECK(median({10, 20, never, never}) == never);
     CHECK(quantile({10, 20, 30, never, never}, 0.25) == 20);
     CHECK(median({-never, 10, 20}) == 10);
@@ -55,23 +55,23 @@ TEST_CASE("the bootstrap's interval of the median is the exact one") {
     CHECK(eleven.high == 18);
     CHECK(more.low == 13);
     CHECK(more.high == 19);
-    // The upper end is among those beyond the range, the lower is not.
-    auto const open = median_interval({10, 11, 12, 13, 14, 15, 16, 17, never, never, never});
-    CHECK(open.low == 12);
-    CHECK(open.high == never);
+    // The upper end is above the range, the lower end is not.
+    auto const unbounded = median_interval({10, 11, 12, 13, 14, 15, 16, 17, never, never, never});
+    CHECK(unbounded.low == 12);
+    CHECK(unbounded.high == never);
     auto const again = median_interval({14, 10, 13, 11, 12});
     CHECK(again.low == five.low);
     CHECK(again.high == five.high);
 }
 
-TEST_CASE("a percentile is the share below, and half of the ties") {
+TEST_CASE("a percentile is the share of smaller numbers and half of the equal ones") {
     CHECK(percentile_of(45, {10, 20, 50, 60}) == 50);
     CHECK(percentile_of(20, {10, 20, 50, never}) == 37.5);
     CHECK(percentile_of(5, {10, 20}) == 0);
     CHECK(percentile_of(500, {10, never}) == 50);
 }
 
-TEST_CASE("statistics of nothing are refused") {
+TEST_CASE("statistics without numbers are refused") {
     CHECK_THROWS_AS(median({}), std::invalid_argument);
     CHECK_THROWS_AS(median_interval({}), std::invalid_argument);
     CHECK_THROWS_AS(percentile_of(1, {}), std::invalid_argument);

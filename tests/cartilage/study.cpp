@@ -40,7 +40,7 @@ std::vector<packing_result const*> pointers(std::vector<packing_result> const& a
 
 } // namespace
 
-TEST_CASE("table 3 counts packings that hold, that failed at once, and that nothing decides") {
+TEST_CASE("table 3 counts packings that hold, that fail below the range, and that no run decides") {
     study_result study;
     load_run unsound = run_at(1000, "invalid");
     unsound.invalid = "energy";
@@ -66,11 +66,11 @@ TEST_CASE("table 3 counts packings that hold, that failed at once, and that noth
     CHECK(first.paper_percentile.value() == 40);
     std::string const csv = table3_csv(cells, study);
     CHECK_THAT(csv, contains_text("surface,first crack,5,2,1,50.0,40.0,60.0,< 5,> 1000,45,40.0\n"));
-    // Nothing is known of its capacity but that one held and one broke before it was asked.
+    // Of the capacity it is only known that one packing holds.
     CHECK_THAT(csv, contains_text("surface,capacity,1,6,1,> 1000,> 1000,> 1000,> 1000,> 1000,48,0.0\n"));
 }
 
-TEST_CASE("a run that stopped at its first crack says nothing about the capacity at the highest load") {
+TEST_CASE("a run that stops at its first crack does not decide the capacity at the highest load") {
     study_result study;
     study.packings = {packing_of(1, {run_at(1000, "first_crack", 1e-9)}, 700)};
     auto const cells = table3(study);
@@ -87,7 +87,7 @@ TEST_CASE("the paper's loads are those of its Table 3 and of the text beside Fig
     CHECK_FALSE(paper_load(cartilage_zone::whole, threshold::complete));
 }
 
-TEST_CASE("damage against load: whole runs that count, and their median between loads") {
+TEST_CASE("damage against load: valid runs to the end, and their median between loads") {
     load_run unsound = run_at(300, "duration", 1e-9, 0.9);
     unsound.invalid = "energy";
     std::vector<packing_result> const packings{
@@ -103,7 +103,7 @@ TEST_CASE("damage against load: whole runs that count, and their median between 
     auto const middle = median_series(all);
     REQUIRE(middle.size() == 3);
     CHECK_THAT(middle[0][1], WithinAbs(5, 1e-12));
-    // Half way between 100 and 400 on a logarithmic axis: 20, 15, and the third packing's 50.
+    // Halfway between 100 and 400 on a logarithmic axis: 20, 15, and the third packing's 50.
     CHECK(middle[1][0] == 200);
     CHECK_THAT(middle[1][1], WithinAbs(20, 1e-9));
     CHECK_THAT(middle[2][1], WithinAbs(30, 1e-12));
@@ -124,17 +124,17 @@ TEST_CASE("first cracks: elastic and later ones, slope within a packing") {
     CHECK_THAT(times.longest_run, WithinAbs(10, 1e-12));
 }
 
-TEST_CASE("the telling run is the one at capacity, else the one with most cracks") {
+TEST_CASE("the representative run is the one at capacity, else the one with most cracks") {
     load_run few = run_at(50, "capacity", 1e-9), many = run_at(80, "quiet", 1e-9), unsound = run_at(90, "quiet", 1e-9);
     few.cracks.resize(2);
     many.cracks.resize(5);
     unsound.cracks.resize(9);
     unsound.invalid = "energy";
     packing_result p = packing_of(1, {few, many, unsound});
-    CHECK(telling_run(p)->load_MPa == 80);
+    CHECK(representative_run(p)->load_MPa == 80);
     p.found.capacity_MPa = 50;
-    CHECK(telling_run(p)->load_MPa == 50);
-    CHECK(telling_run(packing_of(1, {run_at(5, "quiet")})) == nullptr);
+    CHECK(representative_run(p)->load_MPa == 50);
+    CHECK(representative_run(packing_of(1, {run_at(5, "quiet")})) == nullptr);
 }
 
 TEST_CASE("layers in the order in which they lose half of their bonds") {
@@ -155,7 +155,7 @@ TEST_CASE("layers in the order in which they lose half of their bonds") {
     CHECK_THAT(order.layers[0].times[0], WithinAbs(3, 1e-9));
 }
 
-TEST_CASE("fronts arrive layer by layer, and the state at the first break is that of its place and time") {
+TEST_CASE("fronts arrive layer by layer, and the state at the first break is that at its position and time") {
     snapshot s;
     // Stress at 40 µm/ns and -100 MPa, pressure at 20 µm/ns and 2 MPa, in five layers of 20 µm.
     for (int k = 0; k <= 60; ++k) {

@@ -69,7 +69,7 @@ snapshot make_snapshot(std::mt19937_64& random, lacuna::cartilage_zone zone, cha
     s.damage.right = 120e-6;
     s.damage.top = 300e-6;
     s.damage.title = "Synthetic";
-    s.damage.subtitle = "no run made this";
+    s.damage.subtitle = "not from a run";
     s.damage.load_label = "load";
     s.damage.kinds = cartilage::particle_kinds();
     for (int i = 0; i < 30; ++i)

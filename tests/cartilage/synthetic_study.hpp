@@ -3,6 +3,6 @@
 
 #include "cartilage/study/study_result.hpp"
 
-/// A study that nobody ran, for tests of the report alone: every part of the data is there, loads scatter about round
-/// numbers, some runs do not count, some packings hold. \param seeds packings per zone
+/// A study with invented results, for tests of the report: it has all parts of the data, loads that scatter about round
+/// numbers, some invalid runs and some packings that hold. \param seeds packings per zone
 cartilage::study_result synthetic_study(int seeds);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// write_synthetic_report DIR: the report of a study that nobody ran, for browser.cmake to look at.
+// write_synthetic_report DIR: writes the report of synthetic_study() for browser.cmake.
 
 #include <cstdio>
 #include <exception>

@@ -24,10 +24,10 @@ namespace cartilage {
 
 namespace {
 
-/// Scale of all strengths, length of the run, what holds the free particles, what spreads the load.
+/// These scale all strengths, set the duration, hold the free particles (two choices) and spread the load.
 constexpr char const* free_by_default = "thickness,duration,matrix_links,wall_distance,load";
 
-/// Names of the files that a calibration leaves.
+/// Names of the files that a calibration writes.
 std::vector<std::string> calibration_results() { return {"calibration.html", "calibration.csv", "calibration.json", "best.choices"}; }
 
 } // namespace
@@ -37,30 +37,29 @@ std::optional<calibrate_options> parse_calibrate_command_line(int argc, char con
     model_arguments model;
     pool_arguments pool;
     std::string names = free_by_default, evaluations = "40", resolution, highest, out = "cartilage-calibration";
-    CLI::App app("One set of the choices that the paper leaves open, for all zones, as near to its eleven numbers as can "
-                 "be found: medians over the same packings for every set.\nResults go into a directory: "
-                 "calibration.html, calibration.csv, calibration.json, best.choices. The same command goes on where it "
-                 "was stopped.",
+    CLI::App app("Searches for one set of open choices, for all zones, whose loads are nearest to the paper's eleven: "
+                 "medians over the same packings for every set.\nResults go into a directory: calibration.html, "
+                 "calibration.csv, calibration.json, best.choices. The same command continues where it was stopped.",
                  "cartilage calibrate");
     app.failure_message(CLI::FailureMessage::simple);
     app.get_formatter()->column_width(28);
-    app.add_option("--free", names, std::string("choices that may change (") + free_by_default + ")")->type_name("LIST");
-    app.add_option("--evaluations", evaluations, "sets to try at most (40)")->type_name("N");
+    app.add_option("--free", names, std::string("choices to fit (") + free_by_default + ")")->type_name("LIST");
+    app.add_option("--evaluations", evaluations, "largest number of sets to try (40)")->type_name("N");
     add_pool_options(app, pool);
-    app.add_option("--resolution", resolution, "of the loads (0.05)")->type_name("SHARE");
-    app.add_option("--highest", highest, "load to try (300)")->type_name("MPA");
+    app.add_option("--resolution", resolution, "largest step between loads, relative (0.05)")->type_name("SHARE");
+    app.add_option("--highest", highest, "highest load, MPa (300)")->type_name("MPA");
     add_model_options(app, model);
     add_run_options(app, model);
     app.add_option("--out", out, "directory for the results (cartilage-calibration)")->type_name("DIR");
-    app.add_flag("--force", o.study.force, "replace the results that are in DIR");
+    app.add_flag("--force", o.study.force, "replace the results in DIR");
     app.add_flag("--quiet", o.study.quiet, "no progress, no table");
     if (!parse_arguments(app, argc, argv)) return std::nullopt;
-    if (!can_calibrate()) throw usage_error("calibrate: the program was built without NLopt, which this command needs");
+    if (!can_calibrate()) throw usage_error("calibrate: needs NLopt, but the program was built without NLopt");
     o.study.out = out;
-    o.study.model = understand_model(model);
+    o.study.model = model_options(model);
     o.study.model.what = command::run;
     if (pool.seeds.empty() && !pool.quick) pool.seeds = "6";
-    understand_pool(pool, o.study);
+    read_pool_arguments(pool, o.study);
     if (!pool.quick) o.study.loads.resolution = 0.05;
     char const* const rule = "a number from 0.002 to 1";
     if (!resolution.empty()) o.study.loads.resolution = positive_number("--resolution", resolution, rule);
@@ -95,22 +94,22 @@ int calibrate(calibrate_options const& o) {
     unfinished_mark const mark(out, "calibrate");
     auto base = requests_of(o.study);
     for (packing_request& r : base)
-        // Loads of the paper are where a good set has its answers.
+        // The loads of a good set are near those of the paper.
         for (threshold const what : all_thresholds)
             r.loads.first_guess[std::size_t(what)] =
                 paper_load(r.model.zone, what).value_or(1.2 * *paper_load(r.model.zone, threshold::capacity));
     std::vector<calibrated_set> sets;
-    auto const misfit = [&](choices const& open) {
+    auto const misfit = [&](choices const& c) {
         calibrated_set set;
-        set.open = open;
+        set.choices = c;
         auto requests = base;
-        for (packing_request& r : requests) r.model = with_choices(r.model, open);
+        for (packing_request& r : requests) r.model = with_choices(r.model, c);
         pool_options how;
         how.jobs = o.study.jobs;
         how.cache = o.study.cache;
         how.progress = o.study.quiet ? nullptr : stderr;
         try {
-            validate(open);
+            validate(c);
             auto const packings = run_packings(requests, how);
             set.targets = targets_of(packings);
             set.first_layers = first_layers_of(packings);
@@ -127,7 +126,7 @@ int calibrate(calibrate_options const& o) {
         return set.misfit;
     };
     calibration_request request;
-    request.start = o.study.model.open;
+    request.start = o.study.model.choices;
     request.free = o.free;
     request.evaluations = o.evaluations;
     auto const tried = calibrate(request, misfit);

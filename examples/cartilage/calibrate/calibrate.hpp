@@ -10,18 +10,18 @@
 
 namespace cartilage {
 
-/// What is asked of `cartilage calibrate`.
+/// The request to `cartilage calibrate`.
 struct calibrate_options {
     study_options study; ///< zones, seeds, loads, start, output
-    std::vector<choice_field const*> free;
-    std::size_t evaluations = 40;
+    std::vector<choice_field const*> free; ///< choices to fit
+    std::size_t evaluations = 40;          ///< largest number of sets to try
 };
 
-/// One set and what it came to.
+/// A set of choices and its results.
 struct calibrated_set {
-    choices open;
-    double misfit = 0; ///< see misfit_of(); not a number: the set cannot be had
-    std::string why;   ///< of a set that cannot be had
+    cartilage::choices choices;
+    double misfit = 0; ///< see misfit_of(); NaN: the set is not possible
+    std::string why;   ///< why the set is not possible; else empty
     std::vector<target_result> targets;
     std::vector<first_layer_count> first_layers;
 };
@@ -29,8 +29,8 @@ struct calibrated_set {
 /// Reads the command line after the word `calibrate`. \copydetails parse_command_line
 std::optional<calibrate_options> parse_calibrate_command_line(int argc, char const* const* argv);
 
-/// Fits the free choices, one set for all zones, and writes calibration.csv (all that was tried), calibration.json,
-/// best.choices for --choices, and calibration.html: how near one set comes to each number.
+/// Fits the free choices: one set for all zones. Writes calibration.csv and calibration.json with all sets,
+/// best.choices for --choices, and calibration.html, which compares the best set with each load of the paper.
 /// \return the exit status \throws usage_error, std::invalid_argument, interruption
 int calibrate(calibrate_options const& o);
 

@@ -46,9 +46,9 @@ void add_set(json_writer& json, calibrated_set const& set) {
     if (!set.why.empty()) json.value("why", set.why);
     json.open('{', "choices");
     for (choice_field const& f : choice_fields()) {
-        double const value = f.get(set.open);
+        double const value = f.get(set.choices);
         if (f.type == choice_field::kind::word || !std::isfinite(value))
-            json.value(f.name, f.text(set.open));
+            json.value(f.name, f.text(set.choices));
         else
             json.value(f.name, value);
     }
@@ -103,11 +103,12 @@ std::string calibration_json(calibrate_options const& o, std::vector<calibrated_
 
 std::string page_of(calibrate_options const& o, std::vector<calibrated_set> const& sets, std::size_t best) {
     calibrated_set const& set = sets[best];
-    std::string page = page_head("Cartilage under load: calibration") + "<h1>How near one set of choices comes</h1>\n";
+    std::string page = page_head("Cartilage under load: calibration") + "<h1>The best set of open choices</h1>\n";
     page += html_paragraph(
-        "One set of the choices that the paper leaves open, for all zones. Of " + count_text(sets.size(), "set") +
-        " tried, the best is off by " + number_text("%.0f %%", 100 * std::expm1(set.misfit)) + " (root mean square of " +
-        std::to_string(set.targets.size()) + " logarithms, loads that are out of reach counted as a factor of 8); " +
+        "One set of the open choices, which the paper does not state, holds for all zones. The best of " +
+        count_text(sets.size(), "set") + " is off by " + number_text("%.0f %%", 100 * std::expm1(set.misfit)) +
+        " (root mean square of " +
+        std::to_string(set.targets.size()) + " logarithms; a load out of range counts as a factor of 8); " +
         std::to_string(near_count(set)) + " of " + std::to_string(set.targets.size()) + " medians are within " +
         lacuna::to_text(aim_MPa) + " MPa of the paper's.");
     page += html_paragraph(std::to_string(o.study.seeds) + " packings of each zone, the same for every set; loads up to " +
@@ -126,23 +127,23 @@ std::string page_of(calibrate_options const& o, std::vector<calibrated_set> cons
     rows.clear();
     for (first_layer_count const& c : set.first_layers)
         rows.push_back({std::string(lacuna::to_string(c.zone)), std::to_string(c.first) + " of " + std::to_string(c.packings)});
-    page += html_table("In how many packings the first layer was the first to have half of its bonds broken, at its "
+    page += html_table("Packings in which the first layer was the first to lose half of its bonds, in the run at the "
                        "capacity load",
                        {"zone", "packings"}, rows);
-    page += html_paragraph("The best set, where it differs from the defaults:") + "<pre tabindex=\"0\">" +
-            html_text(text_of(set.open).empty() ? "not at all" : text_of(set.open)) + "</pre>\n";
+    page += html_paragraph("Choices of the best set that differ from the defaults:") + "<pre tabindex=\"0\">" +
+            html_text(text_of(set.choices).empty() ? "none" : text_of(set.choices)) + "</pre>\n";
     rows.clear();
     std::vector<std::string> head{"set", "misfit"};
     for (choice_field const* f : o.free) head.emplace_back(f->name);
     for (target_result const& t : set.targets) head.push_back(name_of(t));
     for (std::size_t k = 0; k < sets.size(); ++k) {
         rows.push_back({std::to_string(k + 1), std::isnan(sets[k].misfit) ? "-" : number_text("%.3f", sets[k].misfit)});
-        for (choice_field const* f : o.free) rows.back().push_back(f->text(sets[k].open));
+        for (choice_field const* f : o.free) rows.back().push_back(f->text(sets[k].choices));
         for (target_result const& t : sets[k].targets)
             rows.back().push_back(t.packings > 0 ? load_words(t.median) : "-");
         rows.back().resize(head.size(), "-");
     }
-    page += html_table("All sets, in the order in which they were tried; medians in MPa", head, rows);
+    page += html_table("All sets in the order of their trial; medians in MPa", head, rows);
     return page + page_end();
 }
 
@@ -163,7 +164,7 @@ std::string calibration_csv(calibrate_options const& o, std::vector<calibrated_s
     text += "\n";
     for (std::size_t k = 0; k < sets.size(); ++k) {
         text += std::to_string(k + 1) + "," + (std::isnan(sets[k].misfit) ? "" : lacuna::to_text(sets[k].misfit));
-        for (choice_field const* f : o.free) text.append(",").append(f->text(sets[k].open));
+        for (choice_field const* f : o.free) text.append(",").append(f->text(sets[k].choices));
         for (std::size_t c = 0; c < columns.size(); ++c) {
             text += ",";
             if (c < sets[k].targets.size() && sets[k].targets[c].packings > 0)
@@ -181,7 +182,7 @@ void write_calibration(std::string const& directory, calibrate_options const& o,
     };
     write("calibration.html", page_of(o, sets, best));
     write("calibration.csv", calibration_csv(o, sets));
-    write("best.choices", "# misfit " + number_text("%.3f", sets[best].misfit) + "\n" + text_of(sets[best].open));
+    write("best.choices", "# misfit " + number_text("%.3f", sets[best].misfit) + "\n" + text_of(sets[best].choices));
     write("calibration.json", calibration_json(o, sets, best));
 }
 
@@ -189,7 +190,7 @@ void print_set(std::FILE* out, std::size_t number, std::size_t of, calibrated_se
                std::vector<choice_field const*> const& free) {
     std::fprintf(out, "%zu/%zu misfit %.3f:", number, of, set.misfit);
     for (choice_field const* f : free)
-        std::fprintf(out, " %s=%s", std::string(f->name).c_str(), f->text(set.open).c_str());
+        std::fprintf(out, " %s=%s", std::string(f->name).c_str(), f->text(set.choices).c_str());
     std::fprintf(out, " |");
     for (target_result const& t : set.targets) std::fprintf(out, " %s", t.packings > 0 ? load_words(t.median).c_str() : "-");
     std::fprintf(out, "%s%s\n", set.why.empty() ? "" : " ", set.why.c_str());

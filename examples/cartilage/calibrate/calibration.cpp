@@ -20,16 +20,17 @@ namespace cartilage {
 
 namespace {
 
-constexpr double first_step = 0.3;  // of a field's range
-constexpr double last_step = 0.01;
+constexpr double first_step = 0.3; // relative to a field's range
+constexpr double last_step = 0.01; // relative to a field's range
 
-/// A field's range as the unit interval.
+/// Maps a value from a field's range to the unit interval, on the field's scale.
 double share_of(choice_field const& f, double value) {
     double const low = f.fit[0], high = f.fit[1], v = std::clamp(value, low, high);
     bool const logarithmic = f.steps == choice_field::scale::logarithmic;
     return logarithmic ? std::log(v / low) / std::log(high / low) : (v - low) / (high - low);
 }
 
+/// Maps from the unit interval to a value of the field, rounded to three digits.
 double value_at(choice_field const& f, double share) {
     double const low = f.fit[0], high = f.fit[1];
     bool const logarithmic = f.steps == choice_field::scale::logarithmic;
@@ -39,7 +40,7 @@ double value_at(choice_field const& f, double share) {
 
 bool is_number(choice_field const& f) { return f.type == choice_field::kind::number; }
 
-/// What a word or count is tried at, its present value first.
+/// The values of a word or count to try; the start's value is the first.
 std::vector<double> values_of(choice_field const& f, choices const& start) {
     std::vector<double> values{f.get(start), f.get(choices{})};
     values.insert(values.end(), f.trials.begin(), f.trials.end());
@@ -49,6 +50,7 @@ std::vector<double> values_of(choice_field const& f, choices const& start) {
     return once;
 }
 
+/// All combinations of words and counts; that of the start is the first.
 std::vector<choices> combinations_of(calibration_request const& request) {
     std::vector<choices> all{request.start};
     for (choice_field const* f : request.free) {
@@ -79,7 +81,7 @@ public:
             limit_ = tried_.size() + std::max<std::size_t>(1, left / (combinations.size() - k));
             choices from = combinations[k];
             if (k > 0)
-                for (choice_field const* f : numbers_) f->set(from, f->get(tried_[best_of(tried_)].open));
+                for (choice_field const* f : numbers_) f->set(from, f->get(tried_[best_of(tried_)].choices));
             try_set(from);
             if (!numbers_.empty()) improve(from);
         }
@@ -92,22 +94,22 @@ private:
                (!tried_.empty() && tried_[best_of(tried_)].misfit <= request_.misfit_enough);
     }
 
-    double try_set(choices const& open) {
-        auto const [kept, fresh] = known_.try_emplace(text_of(open, true), 0.0);
-        if (fresh) {
-            kept->second = std::numeric_limits<double>::quiet_NaN();
-            kept->second = misfit_(open);
-            tried_.push_back({open, kept->second});
+    double try_set(choices const& c) {
+        auto const [entry, is_new] = misfits_.try_emplace(text_of(c, true), 0.0);
+        if (is_new) {
+            entry->second = std::numeric_limits<double>::quiet_NaN();
+            entry->second = misfit_(c);
+            tried_.push_back({c, entry->second});
         }
-        return kept->second;
+        return entry->second;
     }
 
 #ifdef CARTILAGE_HAS_NLOPT
     void improve(choices const& from) {
-        std::unique_ptr<nlopt_opt_s, void (*)(nlopt_opt)> const found(
+        std::unique_ptr<nlopt_opt_s, void (*)(nlopt_opt)> const optimizer(
             nlopt_create(NLOPT_LN_COBYLA, unsigned(numbers_.size())), nlopt_destroy);
-        if (!found) throw std::runtime_error("calibrate: NLopt has no COBYLA");
-        nlopt_opt const opt = found.get();
+        if (!optimizer) throw std::runtime_error("calibrate: NLopt has no COBYLA");
+        nlopt_opt const opt = optimizer.get();
         from_ = from;
         opt_ = opt;
         std::vector<double> x;
@@ -116,7 +118,7 @@ private:
         nlopt_set_upper_bounds1(opt, 1);
         nlopt_set_initial_step1(opt, first_step);
         nlopt_set_xtol_abs1(opt, last_step);
-        // Sets that were tried cost nothing, but a search that only meets such must end.
+        // Repeated sets cost nothing, but a search that only repeats sets must end.
         nlopt_set_maxeval(opt, int(20 * request_.evaluations));
         nlopt_set_min_objective(opt, &search::objective, this);
         double least = 0;
@@ -124,19 +126,19 @@ private:
         if (failure_) std::rethrow_exception(failure_);
     }
 
-    /// NLopt is C: nothing may be thrown through it.
+    /// NLopt is a C library, so exceptions must not pass through it.
     static double objective(unsigned count, double const* x, double*, void* self) noexcept {
         search& s = *static_cast<search*>(self);
         constexpr double beyond = 1e3;
         try {
-            choices open = s.from_;
-            for (unsigned k = 0; k < count; ++k) s.numbers_[k]->set(open, value_at(*s.numbers_[k], x[k]));
-            bool const known = s.known_.count(text_of(open, true)) != 0;
+            choices c = s.from_;
+            for (unsigned k = 0; k < count; ++k) s.numbers_[k]->set(c, value_at(*s.numbers_[k], x[k]));
+            bool const known = s.misfits_.count(text_of(c, true)) != 0;
             if (!known && (s.tried_.size() >= s.limit_ || s.is_over())) {
                 nlopt_force_stop(s.opt_);
                 return beyond;
             }
-            double const misfit = s.try_set(open);
+            double const misfit = s.try_set(c);
             return std::isnan(misfit) ? beyond : misfit;
         } catch (...) {
             s.failure_ = std::current_exception();
@@ -153,7 +155,7 @@ private:
     std::function<double(choices const&)> const& misfit_;
     std::vector<choice_field const*> numbers_;
     std::vector<evaluation> tried_;
-    std::map<std::string, double> known_;
+    std::map<std::string, double> misfits_;
     std::size_t limit_ = 0;
     choices from_;
     std::exception_ptr failure_;

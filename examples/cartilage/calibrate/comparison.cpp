@@ -10,20 +10,20 @@ namespace cartilage {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double furthest = 8; // times the paper's load, or the paper's load by it
+constexpr double largest_ratio = 8; // of a load and the paper's load, either way
 
 } // namespace
 
-options with_choices(options const& o, choices const& open) {
+options with_choices(options const& o, choices const& wanted) {
     options changed = o;
     auto const extent = [](choices const& c) { return c.domain == domain_rule::tall ? 120.0 : 300.0; };
-    if (o.length_um == extent(o.open) && o.height_um == 420 - extent(o.open)) {
-        changed.length_um = extent(open);
-        changed.height_um = 420 - extent(open);
+    if (o.length_um == extent(o.choices) && o.height_um == 420 - extent(o.choices)) {
+        changed.length_um = extent(wanted);
+        changed.height_um = 420 - extent(wanted);
     }
-    changed.open = open;
+    changed.choices = wanted;
     changed.duration_ns.reset();
-    if (open.duration > 0) changed.duration_ns = open.duration;
+    if (wanted.duration > 0) changed.duration_ns = wanted.duration;
     return changed;
 }
 
@@ -57,7 +57,7 @@ std::vector<change_of_load> compare(std::vector<packing_result> const& before,
 }
 
 double target_result::misfit() const {
-    double const most = std::log(furthest);
+    double const most = std::log(largest_ratio);
     if (packings == 0 || median == infinity) return most;
     if (!(median > 0)) return -most;
     return std::clamp(std::log(median / paper), -most, most);

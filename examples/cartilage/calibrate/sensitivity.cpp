@@ -24,8 +24,8 @@ namespace cartilage {
 
 namespace {
 
-/// Without effect in any zone that is studied, or in a dry run.
-bool is_idle(choice_field const& f, study_options const& o) {
+/// Whether a choice has no effect in this study.
+bool has_no_effect(choice_field const& f, study_options const& o) {
     bool const whole = std::count(o.zones.begin(), o.zones.end(), lacuna::cartilage_zone::whole) != 0;
     bool const only_whole = f.name == "deep_fraction" || f.name == "surface_fraction";
     return (o.model.dry && f.fluid) || (only_whole && !whole);
@@ -37,19 +37,19 @@ std::vector<variation> variations_of(sensitivity_options const& o) {
     if (fields.empty())
         for (choice_field const& f : choice_fields()) fields.push_back(&f);
     for (choice_field const* f : fields) {
-        if (is_idle(*f, o.study)) continue;
-        double const base = f->get(o.study.model.open), plain = f->get(choices{});
+        if (has_no_effect(*f, o.study)) continue;
+        double const base = f->get(o.study.model.choices), plain = f->get(choices{});
         std::vector<double> values = f->trials;
         if (plain != base) values.push_back(plain);
         std::sort(values.begin(), values.end());
         for (double const value : values) {
             if (value == base) continue;
-            choices changed = o.study.model.open;
+            choices changed = o.study.model.choices;
             f->set(changed, value);
             try {
                 validate(changed);
             } catch (std::invalid_argument const&) {
-                continue; // not with this base
+                continue; // this value is not allowed with this base
             }
             all.push_back({f, value, {}});
         }
@@ -57,7 +57,7 @@ std::vector<variation> variations_of(sensitivity_options const& o) {
     return all;
 }
 
-/// Names of the files that a sensitivity study leaves.
+/// Names of the files that a sensitivity study writes.
 std::vector<std::string> sensitivity_results() {
     std::vector<std::string> names{"sensitivity.csv", "sensitivity.html"};
     for (auto const zone : all_zones)
@@ -73,7 +73,7 @@ std::optional<sensitivity_options> parse_sensitivity_command_line(int argc, char
     model_arguments model;
     pool_arguments pool;
     std::string only, out = "cartilage-sensitivity";
-    CLI::App app("What each choice that the paper leaves open does to the loads of Table 3: one at a time, on the same "
+    CLI::App app("Shows the effect of each open choice on the loads of Table 3: one choice at a time, on the same "
                  "packings.\nResults go into a directory: sensitivity.csv, sensitivity.html, a tornado plot for each "
                  "zone and load.",
                  "cartilage sensitivity");
@@ -84,14 +84,14 @@ std::optional<sensitivity_options> parse_sensitivity_command_line(int argc, char
     add_model_options(app, model);
     add_run_options(app, model);
     app.add_option("--out", out, "directory for the results (cartilage-sensitivity)")->type_name("DIR");
-    app.add_flag("--force", o.study.force, "replace the results that are in DIR");
+    app.add_flag("--force", o.study.force, "replace the results in DIR");
     app.add_flag("--quiet", o.study.quiet, "no progress, no table");
     if (!parse_arguments(app, argc, argv)) return std::nullopt;
     o.study.out = out;
-    o.study.model = understand_model(model);
+    o.study.model = model_options(model);
     o.study.model.what = command::run;
     if (pool.seeds.empty() && !pool.quick) pool.seeds = "6";
-    understand_pool(pool, o.study);
+    read_pool_arguments(pool, o.study);
     for (std::string const& name : parts_of(only, ',')) {
         if (only.empty()) break;
         try {
@@ -112,12 +112,13 @@ int sensitivity(sensitivity_options const& o) {
     lacuna::run_directory out(o.study.out, "--out", sensitivity_results(),
                               unfinished_mark::earlier(o.study.out, "sensitivity", o.study.force));
     auto variations = variations_of(o);
-    if (variations.empty()) throw usage_error("--only: nothing to vary from this base");
+    if (variations.empty())
+        throw usage_error("--only: no value of these choices differs from the base and is allowed with it");
     auto const base = requests_of(o.study);
     std::vector<packing_request> requests = base;
     for (variation const& v : variations)
         for (packing_request r : base) {
-            choices changed = r.model.open;
+            choices changed = r.model.choices;
             v.field->set(changed, v.value);
             r.model = with_choices(r.model, changed);
             requests.push_back(std::move(r));

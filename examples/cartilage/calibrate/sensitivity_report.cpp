@@ -16,14 +16,14 @@ namespace cartilage {
 
 namespace {
 
-constexpr double furthest = 400; // %, end of a plot's axis at most
+constexpr double largest_change = 400; // %, limit of a plot's axis
 constexpr double frame_left = 190, frame_right = 640;
 
 std::string number_or_empty(double value) { return std::isfinite(value) ? lacuna::to_text(value) : ""; }
 
 std::string percent_text(double percent) {
     if (std::isnan(percent)) return "-";
-    if (std::isinf(percent)) return percent > 0 ? "beyond the range" : "below the range";
+    if (std::isinf(percent)) return percent > 0 ? "above the range" : "below the range";
     return number_text("%+.0f %%", percent);
 }
 
@@ -39,7 +39,7 @@ std::vector<named_change> changes_of(std::vector<variation> const& variations, l
     for (variation const& v : variations)
         for (change_of_load const& c : v.changes)
             if (c.zone == zone && c.what == what) found.push_back({&v, &c});
-    // A halving counts as much as a doubling; -100 % is what leaves the range downwards.
+    // Half the load counts as much as twice the load. A load below the range has -100 %.
     auto const size = [](named_change const& n) { return std::fabs(std::log1p(std::max(n.change->change, -100.0) / 100)); };
     std::stable_sort(found.begin(), found.end(),
                      [&](named_change const& a, named_change const& b) { return size(a) > size(b); });
@@ -53,7 +53,7 @@ figure draw(std::string const& directory, std::vector<variation> const& variatio
     figure f{tornado_stem(zone, what), zone_title(zone) + ", " + name_of(what), "", false};
     std::vector<lacuna::tornado_row> rows;
     double low = -20, high = 20;
-    auto const cut = [](double percent) { return std::clamp(percent, -100.0, furthest); };
+    auto const cut = [](double percent) { return std::clamp(percent, -100.0, largest_change); };
     for (variation const& v : variations)
         for (change_of_load const& c : v.changes) {
             if (c.zone != zone || c.what != what) continue;
@@ -72,13 +72,13 @@ figure draw(std::string const& directory, std::vector<variation> const& variatio
     };
     lacuna::save_canvas_png_svg(directory + "/" + f.stem, frame_right + 20, top + tall + 52, paint);
     auto const sorted = changes_of(variations, zone, what);
-    f.sentence = "Largest: ";
+    f.caption = "Largest: ";
     for (std::size_t k = 0; k < std::min<std::size_t>(3, sorted.size()); ++k)
-        f.sentence += (k > 0 ? ", " : "") + label_of(*sorted[k].what) + " " + percent_text(sorted[k].change->change);
+        f.caption += (k > 0 ? ", " : "") + label_of(*sorted[k].what) + " " + percent_text(sorted[k].change->change);
     std::size_t clear = 0;
     for (named_change const& n : sorted) clear += n.change->of_change.low > 0 || n.change->of_change.high < 0;
-    f.sentence += ". " + std::to_string(clear) + " of " + std::to_string(sorted.size()) +
-                  " changes have a 95 % interval that leaves out zero.";
+    f.caption += ". " + std::to_string(clear) + " of " + std::to_string(sorted.size()) +
+                  " changes have a 95 % interval without zero.";
     return f;
 }
 
@@ -107,17 +107,17 @@ std::string sensitivity_csv(std::vector<variation> const& variations, choices co
 
 void write_sensitivity(std::string const& directory, study_options const& o, std::vector<packing_result> const& plain,
                        std::vector<variation> const& variations) {
-    std::string page = page_head("Cartilage under load: sensitivity") + "<h1>What the open choices do</h1>\n";
-    page += html_paragraph("What each choice that the paper leaves open does to the loads of Table 3: one choice at a "
-                           "time, each packing beside the same packing with the base's choices. Bars are medians of "
-                           "the changes, whiskers their 95 % intervals (bootstrap over packings).");
+    std::string page = page_head("Cartilage under load: sensitivity") + "<h1>Effect of the open choices</h1>\n";
+    page += html_paragraph("The effect of each open choice, which the paper does not state, on the loads of Table 3. "
+                           "One choice changes at a time; each packing is compared with the same packing of the base. Bars are "
+                           "medians of the changes, whiskers their 95 % intervals (bootstrap over packings).");
     page += html_paragraph(std::to_string(o.seeds) + " packings of each zone, loads from " +
                            lacuna::to_text(o.loads.lowest_MPa) + " to " + lacuna::to_text(o.loads.highest_MPa) +
                            " MPa to " + number_text("%.3g", 100 * o.loads.resolution) + " %" +
                            (o.model.dry ? ", without pore fluid." : ", with pore fluid.") +
-                           " A bar that ends at -100 % or " + number_text("+%.0f", furthest) +
-                           " % may stand for a load that has left the range.");
-    std::string const base = text_of(o.model.open);
+                           " A bar that ends at -100 % or " + number_text("+%.0f", largest_change) +
+                           " % may be a load outside the range.");
+    std::string const base = text_of(o.model.choices);
     page += html_paragraph("The base:") + "<pre tabindex=\"0\">" +
             html_text(base.empty() ? "all choices at their defaults" : base) + "</pre>\n<div class=\"figures\">\n";
     for (auto const zone : all_zones)
@@ -126,25 +126,25 @@ void write_sensitivity(std::string const& directory, study_options const& o, std
             figure const f = draw(directory, variations, zone, what);
             page += "<figure><h3>" + html_text(f.title) + "</h3>\n" +
                     html_picture(directory + "/" + f.stem + ".svg", "image/svg+xml", f.title) + "\n<figcaption>" +
-                    html_text(f.sentence) + "</figcaption></figure>\n";
+                    html_text(f.caption) + "</figcaption></figure>\n";
         }
     page += "</div>\n";
     std::vector<std::vector<std::string>> rows;
     for (choice_field const& f : choice_fields())
-        rows.push_back({std::string(f.name), f.text(o.model.open), std::string(f.unit), std::string(f.reason)});
+        rows.push_back({std::string(f.name), f.text(o.model.choices), std::string(f.unit), std::string(f.reason)});
     page += html_table("The choices and why they are open", {"choice", "base", "unit", "reason"}, rows);
     std::vector<std::vector<std::string>> medians;
     for (target_result const& t : targets_of(plain))
         medians.push_back({std::string(lacuna::to_string(t.zone)) + ", " + name_of(t.what), lacuna::to_text(t.paper),
                            t.packings > 0 ? number_text("%.3g", t.median) : "-"});
-    page += html_table("Medians of the base beside the paper (MPa)", {"load", "paper", "base"}, medians);
+    page += html_table("Medians of the base and loads of the paper (MPa)", {"load", "paper", "base"}, medians);
     page += page_end();
 
     auto const write = [&](char const* name, std::string const& text) {
         write_whole(directory + "/" + name, text);
     };
     write("sensitivity.html", page);
-    write("sensitivity.csv", sensitivity_csv(variations, o.model.open));
+    write("sensitivity.csv", sensitivity_csv(variations, o.model.choices));
 }
 
 void print_sensitivity(std::FILE* out, std::vector<variation> const& variations) {

@@ -28,8 +28,8 @@ choice_field field(std::string_view name, kind type, std::string_view unit) {
     return f;
 }
 
-/// What a number may be, and how it is varied.
-struct span {
+/// Range of a number, and how it is varied.
+struct number_range {
     double least, most;
     std::string_view rule;
     scale steps;
@@ -39,7 +39,7 @@ struct span {
 };
 
 template <auto Member>
-choice_field number(std::string_view name, std::string_view unit, span s, std::string_view reason) {
+choice_field number(std::string_view name, std::string_view unit, number_range s, std::string_view reason) {
     choice_field f = field<Member>(name, kind::number, unit);
     f.least = s.least;
     f.most = s.most;
@@ -77,85 +77,85 @@ choice_field stated(choice_field f) {
 void add_specimen_fields(std::vector<choice_field>& f) {
     using c = choices;
     f.push_back(word<&c::packing>("packing", {"random", "lattice"}, "random or lattice",
-                                  "The paper says neither how particles were placed nor how dense they lie."));
+                                  "The paper states neither how the particles were packed nor how densely."));
     f.push_back(word<&c::radii>("radii", {"random", "equal"}, "random or equal",
-                                "Table 2 says random from 1.5 to 2 um; equal radii show what the scatter is worth."));
+                                "Table 2 says random from 1.5 to 2 um; equal radii show the effect of the scatter."));
     f.push_back(word<&c::domain>("domain", {"120x300", "300x120"}, "120x300 or 300x120",
-                                 "Table 2 gives length x height, the specimens are 120 um thick (Fig. 7)."));
+                                 "Table 2 gives length x height, but the specimens are 120 um thick (Fig. 7)."));
     f.push_back(number<&c::fibre_spacing>("fibre_spacing", "diameters",
                                           {2, 12, "a number from 2 to 12", scale::logarithmic, {3, 6}, {2.5, 8}},
-                                          "Only Fig. 9 shows how far apart the fibres are."));
+                                          "Only Fig. 9 shows the distance between fibres."));
     choice_field layers = field<&c::fibre_layers>("fibre_layers", kind::count, "");
     layers.most = 100;
-    layers.rule = "a whole number from 0 (as many as there is room for) to 100";
+    layers.rule = "a whole number from 0 (as many as fit) to 100";
     layers.trials = {4, 8};
-    layers.reason = "Only Fig. 9 shows how many there are.";
+    layers.reason = "Only Fig. 9 shows the number of fibres.";
     f.push_back(std::move(layers));
     f.push_back(number<&c::middle_fibre_length>("middle_fibre_length", "um",
                                                 {15, 300, "a number from 15 to 300", scale::logarithmic, {30, 120}, {20, 150}},
-                                                "The paper says no more of the middle network than that it is random."));
+                                                "The paper only says that the network of the middle zone is random."));
     f.push_back(number<&c::deep_fraction>("deep_fraction", "of the height",
                                           {0.1, 0.8, "a number from 0.1 to 0.8", scale::linear, {0.25, 0.45}, {0.2, 0.5}},
-                                          "How thick the zones of the whole specimen are is not said."));
+                                          "The thickness of the zones of the whole specimen is not given."));
     f.push_back(number<&c::surface_fraction>("surface_fraction", "of the height",
                                              {0.1, 0.8, "a number from 0.1 to 0.8", scale::linear, {0.15, 0.45}, {0.15, 0.5}},
-                                             "How thick the zones of the whole specimen are is not said."));
+                                             "The thickness of the zones of the whole specimen is not given."));
     f.push_back(number<&c::fill>("fill", "area fraction", {0.6, 1, "a number from 0.6 to 1", scale::linear, {0.78}, {0.75, 0.9}},
-                                 "How dense the free particles lie is not said."));
+                                 "The density of the free particles is not given."));
     f.push_back(number<&c::contact_tolerance>(
         "contact_tolerance", "of the smaller radius",
         {1e-3, 0.05, "a number from 0.001 to 0.05", scale::logarithmic, {5e-3, 0.02}, {2e-3, 0.03}},
-        "Up to which gap neighbours of the packing count as touching is not said."));
+        "The largest gap between particles in contact is not given."));
     f.push_back(number<&c::thickness>("thickness", "um",
                                       {0.1, 1e6, "a number from 0.1 to 1e6", scale::logarithmic, {1.75, 7}, {0.5, 20}},
-                                      "The model is plane: how deep it is out of the plane is not said."));
+                                      "The model is plane; its thickness out of the plane is not given."));
     f.push_back(word<&c::mass>("mass", {"disc", "sphere"}, "disc or sphere",
-                               "Table 1 gives densities, not how a disc's volume follows from its radius."));
+                               "Table 1 gives densities, but not the volume of a particle of given radius."));
 }
 
 void add_interaction_fields(std::vector<choice_field>& f) {
     using c = choices;
     f.push_back(word<&c::bond_area>("bond_area", {"disc", "strip"}, "disc (pi r^2) or strip (2 r t)",
-                                    "A_c of the failure criterion is not given."));
+                                    "The area A_c of the failure criterion is not given."));
     f.push_back(number<&c::bond_moment>(
         "bond_moment", "of a parallel bond's",
         {0, 10, "a number from 0 (none) to 10", scale::linear, {0.25, 1}, {0, 10}},
-        "The connective model has no moment, yet a fibre without bending stiffness is a chain of hinges."));
+        "The paper's bonds carry no moment, but a fibre without bending stiffness is a chain of hinges."));
     f.push_back(number<&c::fibre_links>("fibre_links", "of the fibres' strength",
                                         {0, 10, "a number from 0 (none) to 10", scale::linear, {0.5, 1}, {0, 3}},
-                                        "Whether fibres are bonded where they cross or touch is not said."));
+                                        "The paper does not say whether fibres are bonded where they touch."));
     f.push_back(number<&c::matrix_links>("matrix_links", "of the fibres' strength",
                                          {0, 10, "a number from 0 (none) to 10", scale::linear, {0.5, 1}, {0, 3}},
-                                         "Whether fibres are bonded to the free particles beside them is not said."));
+                                         "The paper does not say whether fibres are bonded to free particles."));
     f.push_back(stated(number<&c::friction>("friction", "", {0, 2, "a number from 0 to 2", scale::linear, {0, 0.5}, {0, 1}},
-                                            "Table 1 gives 0.1; varied to show what it is worth.")));
+                                            "Table 1 gives 0.1; varied to show its effect.")));
     f.push_back(number<&c::local_damping>("local_damping", "of the force",
                                           {0, 0.9, "a number from 0 (none) to 0.9", scale::linear, {0.2, 0.7}, {0, 0.8}},
-                                          "No damping is mentioned, but without any nothing comes to rest."));
+                                          "The paper mentions no damping, but without damping nothing comes to rest."));
 }
 
 void add_load_fields(std::vector<choice_field>& f) {
     using c = choices;
     f.push_back(word<&c::load_area>("load_area", {"disc", "strip"}, "disc (pi r^2) or strip (2 r t)",
-                                    "How the load in MPa becomes a force on each particle is not given."));
+                                    "The area that turns the load in MPa into a force on a particle is not given."));
     f.push_back(word<&c::load>("load", {"free", "platen"}, "free or platen",
-                               "The paper's load is uniform, that of the experiment comes from a plate (Fig. 7)."));
+                               "The paper's load is uniform; the experiment loads with a plate (Fig. 7)."));
     f.push_back(number<&c::ramp_time>("ramp_time", "ns", {0, 1e3, "a number from 0 to 1000", scale::linear, {2, 8}, {0, 20}},
-                                      "Whether the load comes at once or rises is not said."));
+                                      "The paper does not say whether the load is sudden or ramped."));
     f.push_back(number<&c::wall_distance>("wall_distance", "diameters",
                                           {0, 100, "a number from 0 (confined) to 100", scale::linear, {0, 8}, {0, 10}},
-                                          "The paper's 2 diameters are there to stop splashing particles."));
+                                          "The paper's walls at 2 diameters only stop particles that splash."));
     f.push_back(number<&c::duration>("duration", "ns",
                                      {1e-3, 1e9, "a number from 0.001 to 1e9, or 0 (until quiet)", scale::logarithmic,
                                       {5, 20}, {1, 20}, 0},
-                                     "For how long the load acts is not said."));
+                                     "The duration of the load is not given."));
     f.push_back(number<&c::longest>("longest", "ns", {0.1, 1e4, "a number from 0.1 to 10000", scale::logarithmic, {20, 80}, {5, 80}},
-                                    "Until when a specimen may take to become quiet."));
+                                    "Time limit for specimens that do not become quiet."));
     f.push_back(number<&c::quiet_fraction>("quiet_fraction", "of the largest kinetic energy",
                                            {1e-8, 1, "a number from 1e-8 to 1", scale::logarithmic, {1e-4, 0.01}, {1e-5, 0.1}},
-                                           "What counts as equilibrium is not said."));
+                                           "The criterion of equilibrium is not given."));
     f.push_back(number<&c::quiet_time>("quiet_time", "ns", {0, 1e4, "a number from 0 to 10000", scale::linear, {5, 40}, {0, 40}},
-                                       "For how long no bond must break in equilibrium is not said."));
+                                       "The time without breaks that counts as equilibrium is not given."));
 }
 
 void add_fluid_fields(std::vector<choice_field>& f) {
@@ -168,9 +168,9 @@ void add_fluid_fields(std::vector<choice_field>& f) {
                                               "The aperture a of eq. 14 at zero force is not given.")));
     f.push_back(of_fluid(number<&c::half_force>("half_force", "N",
                                                 {1e-9, 1, "a number from 1e-9 to 1", scale::logarithmic, {1e-5, 1e-3}, {1e-6, 1e-2}},
-                                                "How a force changes the aperture is not given.")));
+                                                "The effect of a force on the aperture is not given.")));
     f.push_back(of_fluid(number<&c::gap_factor>("gap_factor", "", {0, 1, "a number from 0 to 1", scale::linear, {0}, {0, 1}},
-                                                "How a gap changes the aperture is not given.")));
+                                                "The effect of a gap on the aperture is not given.")));
     f.push_back(of_fluid(number<&c::merge_conductance>(
         "merge_conductance", "m^3/(s Pa)",
         {1e-40, 1, "a number from 1e-40 to 1, or inf (none)", scale::logarithmic, {1e-27}, {1e-32, 1e-20}, infinity},
@@ -178,10 +178,10 @@ void add_fluid_fields(std::vector<choice_field>& f) {
     f.push_back(of_fluid(number<&c::minimum_pressure>(
         "minimum_pressure", "Pa",
         {-1e12, 0, "a number from -1e12 to 0, or -inf (the fluid never tears)", scale::linear, {0}, {-1e7, 0}, -infinity},
-        "Whether the water takes tension is not said.")));
+        "The paper does not say whether the water can be in tension.")));
     f.push_back(of_fluid(word<&c::drainage>("drainage", {"top_and_sides", "top", "sealed"},
                                             "top_and_sides, top or sealed",
-                                            "Where water can leave the specimen is not said.")));
+                                            "The drained boundaries are not given.")));
 }
 
 std::vector<choice_field> make_fields() {
@@ -194,7 +194,7 @@ std::vector<choice_field> make_fields() {
 }
 
 /// " (did you mean fill?)", or nothing.
-std::string meant(std::string_view word, std::vector<std::string> const& known) {
+std::string suggestion(std::string_view word, std::vector<std::string> const& known) {
     std::string const near = lacuna::nearest_word(word, known);
     return near.empty() ? "" : " (did you mean " + near + "?)";
 }
@@ -204,7 +204,7 @@ double value_of(choice_field const& f, std::string_view text) {
     if (f.type == kind::word) {
         for (std::size_t k = 0; k < f.words.size(); ++k)
             if (f.words[k] == text) return double(k);
-        lacuna::refuse(f.name, word.empty() ? "''" : word, std::string(f.rule) + meant(word, {f.words.begin(), f.words.end()}));
+        lacuna::refuse(f.name, word.empty() ? "''" : word, std::string(f.rule) + suggestion(word, {f.words.begin(), f.words.end()}));
     }
     auto const value = lacuna::number_of(word);
     bool const whole = f.type != kind::count || (value && *value == std::floor(*value));
@@ -239,7 +239,7 @@ choice_field const& find_choice(std::string_view name) {
         rule += (names.empty() ? " " : ", ") + std::string(f.name);
         names.emplace_back(f.name);
     }
-    lacuna::refuse("name of a choice", name.empty() ? "''" : name, rule + meant(name, names));
+    lacuna::refuse("name of a choice", name.empty() ? "''" : name, rule + suggestion(name, names));
 }
 
 void validate(choices const& c) {

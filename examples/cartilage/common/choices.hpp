@@ -9,16 +9,20 @@
 #include <vector>
 
 /// \file
-/// What the paper leaves open, as one set of values for all zones: the table of choices and their text form.
+/// The open choices: values that the model needs and the paper does not state. One set holds for all zones. This file
+/// has the table of the choices and their text form.
 ///
-/// How the rest of the program uses it:
-///   * `options` has a member `choices open`, filled by understand_model() from --preset, --choices FILE and --set
-///     name=value, in this order; --duration is short for --set duration=NS. Packing, model and end of a run follow
-///     from it and from the zone, load and seed: build_specimen(), model_parameters(), set_up().
-///   * text_of(open) is the same for equal sets and different for different ones: a key for caches, a line in reports.
-///   * choice_fields() walks over all of them: get() and set() as numbers, words by their place.
-///   * Bonds between fibres and from fibres to free particles (cross links) come after those of the fibres in the list
-///     of bonds, and a crack_record of one has fibre -1: they count neither as micro-cracks nor for a layer's damage.
+/// How the rest of the program uses them:
+///   * model_options() fills options::choices from --preset, then --choices FILE, then --set name=value. --duration is
+///     short for --set duration=NS. Packing, model and end of a run follow from the choices, the zone, the load and the
+///     seed: build_specimen(), model_parameters(), set_up().
+///   * text_of() gives equal text for equal sets and different text for different sets. It is part of cache keys and
+///     reports.
+///   * choice_fields() lists all choices; get() and set() treat them as numbers, a word as its index in
+///     choice_field::words.
+///   * Cross links are bonds between fibres, or between a fibre and a free particle. They come after the fibres' bonds
+///     in the list of bonds, and their crack_record has fibre -1. Their breaks count neither as micro-cracks nor as
+///     damage of a layer.
 
 namespace cartilage {
 
@@ -30,7 +34,8 @@ enum class mass_rule : std::uint8_t { disc, sphere };
 enum class load_rule : std::uint8_t { free, platen };
 enum class drainage_rule : std::uint8_t { top_and_sides, top, sealed };
 
-/// One set of all open choices. Units and reasons: choice_fields(). The defaults are the preset `literal`.
+/// One set of all open choices. choice_fields() has their units, ranges and reasons. The defaults are the preset
+/// `literal`.
 struct choices {
     packing_rule packing = packing_rule::random;
     radius_rule radii = radius_rule::random;
@@ -81,46 +86,48 @@ struct choice_field {
     std::string_view name;
     kind type = kind::number;
     std::string_view unit;               ///< empty: none
-    double least = 0, most = 0;          ///< range, both ends allowed
-    double special = 0;                  ///< allowed besides the range, with the meaning that `rule` gives; else in it
+    double least = 0, most = 0;          ///< range, both ends included
+    double special = 0;                  ///< allowed outside the range, explained by `rule`; none: as `least`
     std::string_view rule;               ///< range in words
-    scale steps = scale::linear;         ///< how it is varied
-    std::vector<std::string_view> words; ///< of a word: what it can be
-    std::array<double, 2> fit{};         ///< of a number: between which values a calibration looks
-    std::vector<double> trials;          ///< what a sensitivity study tries instead of the default; words by place
-    bool stated = false;                 ///< the paper gives a value after all: never fitted
+    scale steps = scale::linear;         ///< scale on which a calibration varies a number
+    std::vector<std::string_view> words; ///< of a word: its possible values
+    std::array<double, 2> fit{};         ///< of a number: range that a calibration searches
+    std::vector<double> trials;          ///< values that a sensitivity study tries besides the default; words by index
+    bool stated = false;                 ///< the paper states a value, so that the choice is never fitted
     bool fluid = false;                  ///< without effect in a dry run
-    std::string_view reason;             ///< why it is open, one sentence
+    std::string_view reason;             ///< why the choice is open, one sentence
     double (*get)(choices const&) = nullptr;
-    void (*set)(choices&, double) = nullptr; ///< without a check
+    void (*set)(choices&, double) = nullptr; ///< does not check the value
 
-    /// Value as text, as set_choice() reads it.
+    /// The value as text that set_choice() reads.
     std::string text(choices const& c) const;
     std::string text(double value) const;
     /// \throws std::invalid_argument naming the field, the value and the rule
     void validate(double value) const;
 };
 
-/// All choices, in the order of every table and text.
+/// All choices, in the order that every table and text uses.
 std::vector<choice_field> const& choice_fields();
-/// \throws std::invalid_argument when there is none of that name
+/// The choice of that name. \throws std::invalid_argument if there is none
 choice_field const& find_choice(std::string_view name);
 
+/// Checks each choice and those that depend on each other.
 /// \throws std::invalid_argument naming the field, the value and the rule
 void validate(choices const& c);
 
-/// Whether the fluid may flow too fast for the explicit scheme's steps: it is solved implicitly then.
+/// Whether the conductivity is too high for the explicit flow scheme. The fluid is then solved implicitly.
 inline bool flows_fast(choices const& c) { return c.conductivity > 1e-6; }
 
-/// Lines "name = value\n" in the order of the table; without `all` only those that differ from the defaults.
+/// Lines "name = value\n" in the order of the table. If `all` is false, only choices that differ from the defaults.
 std::string text_of(choices const& c, bool all = false);
 
-/// Sets one choice from "name=value", blanks around both allowed.
+/// Sets one choice from "name=value". Blanks around name and value are ignored.
 /// \throws std::invalid_argument naming the field, the value and the rule
 void set_choice(choices& c, std::string_view assignment);
 
-/// Sets choices from text as text_of() writes it: one "name = value" a line; empty lines and what follows # count
-/// for nothing. \param origin of the text, for messages. \throws std::invalid_argument
+/// Sets choices from the text that text_of() writes: one "name = value" a line. Empty lines and comments after # are
+/// ignored. `c` changes only if the whole text is valid. \param origin of the text, for messages
+/// \throws std::invalid_argument with origin and line number
 void set_choices(choices& c, std::string_view text, std::string const& origin);
 
 } // namespace cartilage

@@ -5,7 +5,7 @@
 
 namespace cartilage {
 
-/// Work that was ended by a signal (lacuna::stop_signal()) before it had a result.
+/// Thrown when a signal (lacuna::stop_signal()) ends work before it has a result.
 class interruption : public std::runtime_error {
 public:
     interruption() : std::runtime_error("interrupted") {}

@@ -11,10 +11,10 @@
 
 namespace cartilage {
 
-/// Lets `jobs` threads (0: as many as there are processors) call work(k) for k from 0 to count - 1, each once.
-/// \throws what the first failing call throws, once the calls under way have ended; no other is begun then
+/// Calls work(k) once for each k from 0 to count - 1, on `jobs` threads (0: one for each processor).
+/// \throws the exception of the first call that fails. No call starts after that; the running calls are awaited first.
 template <class Work>
-void share_out(std::size_t count, int jobs, Work const& work) {
+void for_each_in_parallel(std::size_t count, int jobs, Work const& work) {
     std::atomic<std::size_t> next{0};
     std::atomic<bool> failed{false};
     std::exception_ptr failure;

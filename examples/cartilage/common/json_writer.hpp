@@ -11,10 +11,10 @@
 
 namespace cartilage {
 
-/// Writes JSON text, indented by two spaces: objects, arrays, and values of the kinds that the program has.
+/// Writes JSON text, indented by two spaces: objects, arrays, texts, booleans and numbers.
 class json_writer {
 public:
-    /// Opens the value of `key` (or an element, or the whole text, when the key is empty).
+    /// Opens an object or array: the value of `key`, or, if the key is empty, an element of an array or the whole text.
     json_writer& open(char bracket, std::string_view key = {}) {
         begin(key);
         text_ += bracket;
@@ -37,6 +37,7 @@ public:
     json_writer& value(std::string_view key, char const* v) { return value(key, std::string_view(v)); }
     json_writer& value(std::string_view key, std::string const& v) { return value(key, std::string_view(v)); }
     json_writer& value(std::string_view key, bool v) { return raw(key, v ? "true" : "false"); }
+    /// JSON has no infinity and no NaN: both are written as null.
     json_writer& value(std::string_view key, double v) {
         return raw(key, std::isfinite(v) ? lacuna::to_text(v) : "null");
     }

@@ -25,11 +25,11 @@ std::string contents_of(std::string const& path) {
     } catch (std::invalid_argument const&) {
         refuse("--choices", path, "a file that can be read");
     }
-    if (text.empty()) refuse("--choices", path, "a file with lines \"name = value\": it is empty");
+    if (text.empty()) refuse("--choices", path, "a file with lines \"name = value\", not an empty one");
     return std::string(lacuna::plain_text(text, path));
 }
 
-/// The open choices, for --help.
+/// The table of the open choices for --help.
 std::string choices_help() {
     std::string text = "Choices for --set and --choices, with defaults:\n";
     choices const plain;
@@ -42,8 +42,8 @@ std::string choices_help() {
     return text;
 }
 
-/// The choices of preset, file and single settings, in this order.
-choices understand_choices(model_arguments const& args) {
+/// The choices of the preset, then of the file, then of the single settings.
+choices read_choices(model_arguments const& args) {
     choices c;
     std::vector<std::string> presets;
     for (auto name : preset_names()) presets.emplace_back(name);
@@ -102,30 +102,32 @@ lacuna::cartilage_zone zone_of(std::string const& option, std::string const& wor
 
 void add_model_options(CLI::App& app, model_arguments& args) {
     app.footer(choices_help());
-    app.add_option("--length", args.length, "of the specimen, horizontal, um (as the choice domain says: 120)")
+    app.add_option("--length", args.length, "length of the specimen, horizontal, um (from the choice domain: 120)")
         ->type_name("UM");
-    app.add_option("--height", args.height, "of the specimen, um (as the choice domain says: 300)")->type_name("UM");
-    app.add_option("--preset", args.preset, "literal: as the paper says; lattice: equal radii, no chance; calibrated: nearest to the paper, if --dry (literal)")
+    app.add_option("--height", args.height, "height of the specimen, um (from the choice domain: 300)")->type_name("UM");
+    app.add_option("--preset", args.preset,
+                   "literal: as the paper states; lattice: equal radii on lattices, nothing random; calibrated: nearest to "
+                   "the paper's loads, for --dry (literal)")
         ->type_name("NAME");
-    app.add_option("--choices", args.file, "file of choices that differ from the preset, a line 'name = value' each")
+    app.add_option("--choices", args.file, "file of choices that differ from the preset, one 'name = value' a line")
         ->type_name("FILE");
-    app.add_option("--set", args.set, "one choice that differs; may be repeated")
+    app.add_option("--set", args.set, "one choice that differs from preset and file; may be repeated")
         ->type_name("NAME=VALUE")
         ->take_all()
         ->allow_extra_args(false);
 }
 
 void add_run_options(CLI::App& app, model_arguments& args) {
-    app.add_option("--duration", args.duration, "simulated time, ns (until quiet, 40 at most)")->type_name("NS");
+    app.add_option("--duration", args.duration, "simulated time, ns (until quiet, at most 40)")->type_name("NS");
     app.add_flag("--dry", args.dry, "without pore fluid");
 }
 
-options understand_model(model_arguments const& args) {
+options model_options(model_arguments const& args) {
     options o;
     o.preset = args.preset;
-    o.open = understand_choices(args);
-    if (o.open.duration > 0) o.duration_ns = o.open.duration;
-    bool const tall = o.open.domain == domain_rule::tall;
+    o.choices = read_choices(args);
+    if (o.choices.duration > 0) o.duration_ns = o.choices.duration;
+    bool const tall = o.choices.domain == domain_rule::tall;
     auto const extent = [](char const* option, std::string const& word, double plain) {
         return word.empty() ? plain : positive_number(option, word, "a number of micrometres > 0");
     };

@@ -13,37 +13,38 @@ class App;
 }
 
 /// \file
-/// From arguments on the command line to numbers and models: what all commands have in common.
+/// Options that all commands share, and the parsing of their values.
 
 namespace cartilage {
 
-/// The arguments that decide on a model, as written.
+/// The arguments that determine a model, as text from the command line.
 struct model_arguments {
     std::string preset = "literal", file, length, height, duration;
     std::vector<std::string> set;
     bool dry = false;
 };
 
-/// --preset, --choices, --set, --length and --height.
+/// Adds --preset, --choices, --set, --length and --height.
 void add_model_options(CLI::App& app, model_arguments& args);
-/// --dry and --duration, of commands that run a model.
+/// Adds --dry and --duration, for commands that run a model.
 void add_run_options(CLI::App& app, model_arguments& args);
 
-/// The model that was asked for; zone, seed and load are left as they are. \throws usage_error
-options understand_model(model_arguments const& args);
+/// The requested model. Zone, seed and load have their default values. \throws usage_error, std::invalid_argument
+options model_options(model_arguments const& args);
 
-/// Lets CLI11 read the command line; false: help was asked for, and is on stdout. \throws usage_error
+/// Reads the command line with CLI11.
+/// \return false if only help or the version was requested, which is then on stdout \throws usage_error
 bool parse_arguments(CLI::App& app, int argc, char const* const* argv);
-/// \throws std::invalid_argument for what is no zone, with the one that was meant
+/// The zone of that name. \throws std::invalid_argument for other words, with the most similar zone
 lacuna::cartilage_zone zone_of(std::string const& option, std::string const& word);
-/// "a,b" in two; empty text has one empty part.
+/// Splits a list at the separator. Empty text has one empty part.
 std::vector<std::string> parts_of(std::string const& list, char separator);
 
-/// \throws usage_error "option word: must be rule"
+/// \throws usage_error "option word: must be rule" in any case
 [[noreturn]] void refuse(char const* option, std::string const& word, char const* rule);
-/// \throws usage_error
+/// A finite number > 0. \throws usage_error
 double positive_number(char const* option, std::string const& word, char const* rule);
-/// \throws usage_error
+/// A whole number from `least` to `most`. \throws usage_error
 template <class Integer>
 Integer whole_number(char const* option, std::string const& word, Integer least, Integer most, char const* rule) {
     Integer value{};

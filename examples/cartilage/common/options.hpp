@@ -10,11 +10,11 @@
 #include "cartilage/common/zone.hpp"
 
 /// \file
-/// What a person asks of the program on its command line.
+/// The request on the command line, after it was checked.
 
 namespace cartilage {
 
-/// A request that cannot be met; the message is one line, the exit status 2.
+/// A request that cannot be met. The message is one line; the exit status is 2.
 class usage_error : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;
@@ -27,20 +27,20 @@ struct options {
     command what = command::run;
     lacuna::cartilage_zone zone = lacuna::cartilage_zone::surface;
     std::string preset = "literal";
-    choices open; ///< what the paper leaves open: preset, file and single settings together
+    cartilage::choices choices; ///< from preset, file and single settings
     double load_MPa = 0;
     std::uint64_t seed = 1;
     double length_um = 120;
     double height_um = 300;
-    std::optional<double> duration_ns; ///< that of `open`; none: until quiet
-    std::optional<double> time_step_ps; ///< none: a share of the rigorous bound
+    std::optional<double> duration_ns; ///< that of `choices`; none: until quiet
+    std::optional<double> time_step_ps; ///< none: step_share of the rigorous bound
     bool allow_unstable_step = false;
-    double step_share = 0.4;
-    bool pair_forces = false; ///< the run's forces of single pairs will be asked for; no option
+    double step_share = 0.4;  ///< time step over its rigorous bound
+    bool pair_forces = false; ///< the run stores the force of each pair; not a command-line option
     int threads = 1;
     bool dry = false;
     std::string out;
-    long long picture_every = 0; ///< steps between two damage pictures on the way, 0: none
+    long long picture_every = 0; ///< steps between two damage pictures during the run; 0: none
     bool quiet = false;
     bool force = false;
 };

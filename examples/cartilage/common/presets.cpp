@@ -17,7 +17,7 @@ choices preset_choices(std::string_view name) {
         return c;
     }
     if (name == "calibrated") {
-        // From `cartilage calibrate --dry`, as data/calibrated/calibration.html says.
+        // The result of `cartilage calibrate --dry` in data/calibrated/calibration.html.
         c.thickness = 5;
         c.bond_moment = 2.95;
         c.matrix_links = 1;

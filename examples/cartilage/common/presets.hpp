@@ -7,14 +7,14 @@
 #include "cartilage/common/choices.hpp"
 
 /// \file
-/// Sets of choices that have a name.
+/// Named sets of choices.
 
 namespace cartilage {
 
-/// The presets: `literal` (the paper by its words), `lattice` (equal radii on lattices, without chance), `calibrated` (the
-/// set that came nearest to the paper's eleven numbers, in dry runs).
+/// The presets: `literal` (the values that the paper states), `lattice` (equal radii on lattices, nothing random) and
+/// `calibrated` (the set that came nearest to the paper's eleven loads, in dry runs).
 std::vector<std::string_view> preset_names();
-/// \throws std::invalid_argument when there is none of that name
+/// The choices of a preset. \throws std::invalid_argument if there is none of that name
 choices preset_choices(std::string_view name);
 
 } // namespace cartilage

@@ -12,8 +12,8 @@
 namespace cartilage {
 
 unfinished_mark::unfinished_mark(lacuna::run_directory& out, std::string const& command) : out_(out), command_(command) {
-    // Results that are there stay until there are new ones: then they are finished, and no mark belongs beside them.
-    if (out.results().empty() || is_there()) write("not yet");
+    // Complete results of an earlier command stay until new ones replace them, so they must not get a mark.
+    if (out.results().empty() || exists()) write("not yet");
 }
 
 lacuna::earlier_results unfinished_mark::earlier(std::string const& directory, std::string const& command, bool force) {
@@ -23,7 +23,7 @@ lacuna::earlier_results unfinished_mark::earlier(std::string const& directory, s
                : lacuna::earlier_results::refuse;
 }
 
-bool unfinished_mark::is_there() const {
+bool unfinished_mark::exists() const {
     std::error_code error;
     return std::filesystem::exists(out_.file(name_of(command_)), error);
 }
@@ -34,14 +34,14 @@ void unfinished_mark::begin_results() const {
 }
 
 void unfinished_mark::stopped_by(int signal) const {
-    if (is_there()) write("stopped by " + lacuna::signal_name(signal));
+    if (exists()) write("stopped by " + lacuna::signal_name(signal));
 }
 
 void unfinished_mark::write(std::string const& ended) const {
     out_.stay();
     json_writer json;
     json.open('{').value("command", command_).value("ended", ended);
-    json.value("message", "the same command goes on from the runs that are kept").close('}');
+    json.value("message", "the same command continues from the finished runs in the cache").close('}');
     write_whole(out_.file(name_of(command_)), json.text());
 }
 

@@ -7,23 +7,24 @@
 
 namespace cartilage {
 
-/// The mark of a study, or the like, whose results are not there yet: a file unfinished-COMMAND.json, from before its first run
-/// until its results are written. The kept runs are in the cache.
+/// Marks a study, sensitivity or calibration without results: a file unfinished-COMMAND.json in its directory. The file
+/// exists from before the first run until the results are written. Finished runs are in the cache.
 class unfinished_mark {
 public:
+    /// Writes the mark, unless the directory has complete results. \throws std::runtime_error if it cannot be written
     unfinished_mark(lacuna::run_directory& out, std::string const& command);
-    /// What becomes of results that are there: with a mark beside them they are not whole, and the same command goes on.
+    /// What to do with earlier results. Results beside a mark are incomplete, so that the same command replaces them.
     static lacuna::earlier_results earlier(std::string const& directory, std::string const& command, bool force);
-    /// Before the results are written: those of an earlier run are removed first.
+    /// Call before the results are written. Removes those of an earlier run.
     void begin_results() const;
-    /// After they are.
+    /// Call after the results are written. Removes the mark.
     void end() const { out_.remove(name_of(command_)); }
-    /// A signal came. \throws std::runtime_error when the file cannot be written
+    /// Records the signal that stopped the command. \throws std::runtime_error if the file cannot be written
     void stopped_by(int signal) const;
 
 private:
     static std::string name_of(std::string const& command) { return "unfinished-" + command + ".json"; }
-    bool is_there() const;
+    bool exists() const;
     void write(std::string const& ended) const;
     lacuna::run_directory& out_;
     std::string command_;

@@ -7,7 +7,7 @@
 
 namespace cartilage {
 
-/// Writes a file that appears whole or not at all. \throws std::runtime_error
+/// Writes a file that appears complete or not at all. \throws std::runtime_error if it cannot be written
 inline void write_whole(std::string const& path, std::string const& text) {
     lacuna::whole_file file(path);
     file.write(text);

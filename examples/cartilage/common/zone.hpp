@@ -20,7 +20,7 @@ constexpr std::string_view to_string(cartilage_zone zone) noexcept {
     }
 }
 
-/// The zone of that name. \throws std::invalid_argument when there is none
+/// The zone of that name. \throws std::invalid_argument if there is none
 inline cartilage_zone parse_cartilage_zone(std::string_view name) {
     for (auto zone : {cartilage_zone::surface, cartilage_zone::middle, cartilage_zone::deep, cartilage_zone::whole})
         if (name == to_string(zone)) return zone;

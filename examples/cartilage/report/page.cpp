@@ -38,7 +38,7 @@ pre { overflow-x: auto; background: #f6f7f9; border-radius: 6px; padding: 0.8rem
 std::string page_head(std::string const& title) {
     std::string text = "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
                        "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-                       // Nothing from elsewhere: the browser itself keeps this page to what it holds.
+                       // The browser itself refuses external resources.
                        "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; "
                        "style-src 'unsafe-inline'\">\n"
                        "<title>";

@@ -4,15 +4,16 @@
 #include <string>
 
 /// \file
-/// The frame that all pages of the program have: one style, nothing from elsewhere.
+/// The common frame of all pages: one style sheet, no external resources.
 
 namespace cartilage {
 
-/// From the beginning to the open body. \param title of the window, plain text
+/// The beginning of a page, up to and with the tag <body>. \param title of the window, plain text
 std::string page_head(std::string const& title);
+/// The end of a page, from the tag </body> on.
 std::string page_end();
 
-/// \name From plain text \param kind of the paragraph, empty or "lead"
+/// \name Elements from plain text \param kind CSS class of the paragraph, empty or "lead"
 /// \{
 std::string html_paragraph(std::string const& plain, char const* kind = "");
 std::string html_heading(std::string const& plain);

@@ -24,12 +24,12 @@ using lacuna::rectangle;
 constexpr double width = 560;
 constexpr std::size_t slices = 10;
 
-/// The cracks of a zone, each packing's first one apart, and how many of each mode are in each tenth of the height.
+/// The cracks of a zone, the first crack of each packing, and the counts of each mode in each tenth of the height.
 struct crack_map {
     series tension, shear, first; ///< µm
     std::array<double, slices> tension_in{}, shear_in{};
     std::vector<double> heights;          ///< µm
-    std::map<std::string, int> broken_in; ///< bonds, by the zone of their fibre
+    std::map<std::string, int> broken_in; ///< broken bonds by the zone of their fibre
     std::size_t packings = 0, at_capacity = 0;
 
     std::size_t count() const { return heights.size(); }
@@ -38,7 +38,7 @@ struct crack_map {
 crack_map crack_map_of(std::vector<packing_result const*> const& packings, double height_um) {
     crack_map map;
     for (packing_result const* packing : packings) {
-        load_run const* run = telling_run(*packing);
+        load_run const* run = representative_run(*packing);
         if (run == nullptr) continue;
         ++map.packings;
         map.at_capacity += packing->found.capacity_MPa.has_value();
@@ -55,7 +55,7 @@ crack_map crack_map_of(std::vector<packing_result const*> const& packings, doubl
     return map;
 }
 
-/// Where the fibres are whose bonds broke, in a specimen of several zones.
+/// The shares of the breaks in each zone, for a specimen of several zones.
 std::string zone_words(crack_map const& map) {
     if (map.broken_in.size() < 2) return "";
     int all = 0;
@@ -76,8 +76,9 @@ std::string sentence_of(crack_map const& map, double height_um) {
     double const tension = 100 * double(map.tension.size()) / double(map.count());
     std::vector<double> first;
     for (auto const& p : map.first) first.push_back(height_um - p[1]);
-    return count_text(map.count(), "broken bond") + " in the telling runs of " + count_text(map.packings, "packing") +
-           " (" + std::to_string(map.at_capacity) + " at capacity): " + number_text("%.0f", tension) +
+    return count_text(map.count(), "broken bond") + " in the representative runs of " +
+           count_text(map.packings, "packing") + " (" + std::to_string(map.at_capacity) + " at capacity): " +
+           number_text("%.0f", tension) +
            " % in tension, the others in shear; " + number_text("%.0f", 100 * top / double(map.count())) +
            " % lie in the top tenth of the height. The first crack lies " + number_text("%.0f", median(first)) +
            " µm below the top (median; quartiles " + number_text("%.0f", quantile(first, 0.25)) + " to " +
@@ -86,20 +87,22 @@ std::string sentence_of(crack_map const& map, double height_um) {
 
 void draw_map(canvas& page, crack_map const& map, double length_um, double height_um, double scale) {
     page.clear({1, 1, 1});
-    rectangle const body{76, 64, 76 + scale * length_um, 64 + scale * height_um};
-    plot place(page, body, {0, length_um, "width (µm)", axis_scale::linear, length_um * scale < 250 ? 4 : 7},
+    rectangle const map_frame{76, 64, 76 + scale * length_um, 64 + scale * height_um};
+    plot positions(page, map_frame, {0, length_um, "width (µm)", axis_scale::linear, length_um * scale < 250 ? 4 : 7},
                {0, height_um, "height (µm), load on top", axis_scale::linear, height_um * scale < 250 ? 4 : 7},
                figure_style);
-    place.draw_axes();
+    positions.draw_axes();
     double const size = map.count() > 2000 ? 1.3 : 2;
-    place.markers(map.shear, plot_mark::disc, shear_ink, size);
-    place.markers(map.tension, plot_mark::disc, tension_ink, size);
-    place.markers(map.first, plot_mark::ring, figure_style.ink, 4.5);
+    positions.markers(map.shear, plot_mark::disc, shear_ink, size);
+    positions.markers(map.tension, plot_mark::disc, tension_ink, size);
+    positions.markers(map.first, plot_mark::ring, figure_style.ink, 4.5);
 
     double most = 0;
     for (std::size_t k = 0; k < slices; ++k) most = std::max(most, map.tension_in[k] + map.shear_in[k]);
-    rectangle const beside{body.right + 40, body.low, std::max(body.right + 120, width - 20), body.high};
-    plot counts(page, beside, {0, 1.05 * most, "broken bonds", axis_scale::linear, beside.width() < 200 ? 3 : 5},
+    rectangle const counts_frame{map_frame.right + 40, map_frame.low, std::max(map_frame.right + 120, width - 20),
+                                 map_frame.high};
+    plot counts(page, counts_frame,
+                {0, 1.05 * most, "broken bonds", axis_scale::linear, counts_frame.width() < 200 ? 3 : 5},
                 {0, height_um, "", axis_scale::linear, 6, {{0, ""}}}, figure_style);
     counts.draw_axes();
     for (std::size_t k = 0; k < slices; ++k) {
@@ -107,7 +110,7 @@ void draw_map(canvas& page, crack_map const& map, double length_um, double heigh
         counts.box(0, map.tension_in[k], low, high, tension_ink);
         counts.box(map.tension_in[k], map.tension_in[k] + map.shear_in[k], low, high, shear_ink);
     }
-    lacuna::draw_legend_row(page, {body.left, 20}, width - body.left,
+    lacuna::draw_legend_row(page, {map_frame.left, 20}, width - map_frame.left,
                             {{legend_mark::disc, tension_ink, "tension"},
                              {legend_mark::disc, shear_ink, "shear"},
                              {legend_mark::ring, figure_style.ink, "first of a packing"}},
@@ -136,7 +139,7 @@ void draw_layers(canvas& page, layer_order const& order, rectangle const& frame)
         }
     }
     page.clear({1, 1, 1});
-    plot plane(page, frame, {0, 1.06 * latest, "time when half of its bonds had broken (ns)", axis_scale::linear, 7},
+    plot plane(page, frame, {0, 1.06 * latest, "time when half of its bonds were broken (ns)", axis_scale::linear, 7},
                {-double(order.layers.size()) + 0.4, 0.6, "layer", axis_scale::linear, 6, names}, figure_style);
     plane.draw_axes();
     for (std::size_t k = 0; k < order.layers.size(); ++k) {

@@ -28,7 +28,7 @@ std::string median_words(table3_cell const& cell, study_result const& study) {
     return zone + " " + load_text(cell.median, study);
 }
 
-/// Whether the medians of the three zones rise with depth, as the paper's do.
+/// A sentence on whether the medians of the three zones rise with depth, as the paper's loads do.
 std::string order_words(std::vector<table3_cell const*> const& zones) {
     std::vector<table3_cell const*> known;
     for (table3_cell const* cell : zones)
@@ -40,11 +40,11 @@ std::string order_words(std::vector<table3_cell const*> const& zones) {
         apart = apart && known[k]->of_median.low > known[k - 1]->of_median.high;
     }
     if (!rises) return " The medians do not rise from zone to zone with depth, as the paper's loads do.";
-    return apart ? " The medians rise with depth, and the intervals of neighbouring zones are apart."
+    return apart ? " The medians rise with depth, and the intervals of neighbouring zones do not overlap."
                  : " The medians rise with depth, but intervals of neighbouring zones overlap.";
 }
 
-/// How far the quartiles of each zone's packings are apart.
+/// A sentence with the ratio of the quartiles of each zone.
 std::string scatter_words(std::vector<table3_cell const*> const& zones) {
     std::string words;
     for (table3_cell const* cell : zones)
@@ -80,7 +80,7 @@ figure draw_threshold(std::string const& directory, study_result const& study,
             auto const on_page = [&](double load) { return std::clamp(load, 0.88 * study.lowest_MPa, beyond); };
             plot::points dots;
             for (std::size_t i = 0; i < cell.loads.size(); ++i) {
-                // Spread sideways in the order of the load, so that equal ones stay visible.
+                // Spread sideways in the order of the load, so that equal loads stay visible.
                 double const aside = cell.loads.size() < 2 ? 0 : 0.4 * double(i) / double(cell.loads.size() - 1) - 0.2;
                 dots.push_back({double(k) + aside, on_page(cell.loads[i])});
             }
@@ -96,16 +96,16 @@ figure draw_threshold(std::string const& directory, study_result const& study,
         plane.word(double(zones.size()) - 0.53, beyond, "none", figure_style.ink, lacuna::text_align::right);
     };
     lacuna::save_canvas_png_svg(directory + "/" + f.stem, width, height, draw);
-    f.sentence = "Medians in MPa: ";
-    for (std::size_t k = 0; k < zones.size(); ++k) f.sentence += (k ? ", " : "") + median_words(*zones[k], study);
-    f.sentence += "." + order_words(zones) + scatter_words(zones);
+    f.caption = "Medians in MPa: ";
+    for (std::size_t k = 0; k < zones.size(); ++k) f.caption += (k ? ", " : "") + median_words(*zones[k], study);
+    f.caption += "." + order_words(zones) + scatter_words(zones);
     int inside = 0, compared = 0;
     for (table3_cell const* cell : zones) {
         if (!cell->paper || cell->loads.empty()) continue;
         ++compared;
         inside += cell->of_median.low <= *cell->paper && *cell->paper <= cell->of_median.high;
     }
-    f.sentence += " The paper's load lies inside the median's 95 % interval in " + std::to_string(inside) + " of " +
+    f.caption += " The paper's load lies inside the median's 95 % interval in " + std::to_string(inside) + " of " +
                   std::to_string(compared) + ".";
     return f;
 }
@@ -153,10 +153,10 @@ std::vector<figure> draw_damage_figures(std::string const& directory, study_resu
                 0.9 * figure_style.text_size, figure_style.ink);
         };
         lacuna::save_canvas_png_svg(directory + "/" + f.stem, width, height, draw);
-        f.sentence = count_text(all.size(), "packing") + " with runs that ran whole, ";
-        f.sentence += "up to " + number_text("%.1f", most) + " % broken.";
+        f.caption = count_text(all.size(), "packing") + " with runs to the end, ";
+        f.caption += "up to " + number_text("%.1f", most) + " % broken.";
         if (middle.size() > 1)
-            f.sentence += " The median goes from " + number_text("%.1f", middle.front()[1]) + " % at " +
+            f.caption += " The median goes from " + number_text("%.1f", middle.front()[1]) + " % at " +
                           load_number(middle.front()[0]) + " MPa to " + number_text("%.1f", middle.back()[1]) +
                           " % at " + load_number(middle.back()[0]) + " MPa.";
         figures.push_back(std::move(f));

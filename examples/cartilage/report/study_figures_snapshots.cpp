@@ -49,7 +49,7 @@ double largest(std::vector<double> const& values) {
 void draw_fronts(canvas& page, snapshot const& s, double height_um) {
     auto const fronts = arrivals_of(s);
     auto const broken = first_break_of(s, height_um);
-    // From the first waves to the end of the run it is three decades.
+    // The times from the first waves to the end of the run span three decades.
     double const last = 1e9 * s.fronts.back().time;
     double const first = std::max(1e9 * s.fronts.front().time, 1e-4 * last);
     lacuna::plot_axis const times{0.9 * first, 1.1 * last, "time (ns)", axis_scale::logarithmic, 8};
@@ -59,13 +59,13 @@ void draw_fronts(canvas& page, snapshot const& s, double height_um) {
         return out;
     };
     page.clear({1, 1, 1});
-    plot place(page, upper, times, {0.0, height_um, "height (µm), load on top"}, figure_style);
-    place.draw_axes();
+    plot positions(page, upper, times, {0.0, height_um, "height (µm), load on top"}, figure_style);
+    positions.draw_axes();
     series cracks;
     for (load_run::crack const& c : s.run.cracks) cracks.push_back({1e9 * c.time, 1e6 * c.y});
-    place.markers(cracks, plot_mark::cross, tension_ink, 3);
-    place.line(upward(fronts.stress), stress_ink, 2.4);
-    place.line(upward(fronts.pressure), pressure_ink, 2.4);
+    positions.markers(cracks, plot_mark::cross, tension_ink, 3);
+    positions.line(upward(fronts.stress), stress_ink, 2.4);
+    positions.line(upward(fronts.pressure), pressure_ink, 2.4);
 
     series stress, pressure;
     double lowest = 1e300, highest = 0;
@@ -82,13 +82,13 @@ void draw_fronts(canvas& page, snapshot const& s, double height_um) {
     }
     if (highest > 0) {
         lowest = std::max(lowest, 1e-5 * highest);
-        plot size(page, lower, times,
+        plot magnitudes(page, lower, times,
                   {0.8 * lowest, 1.6 * highest, "largest mean of a layer (MPa)", axis_scale::logarithmic, 7},
                   figure_style);
-        size.draw_axes();
-        size.line(stress, stress_ink, 2.4);
-        size.line(pressure, pressure_ink, 2.4);
-        if (broken) size.rule_x(1e9 * broken->time, tension_ink, 1.6);
+        magnitudes.draw_axes();
+        magnitudes.line(stress, stress_ink, 2.4);
+        magnitudes.line(pressure, pressure_ink, 2.4);
+        if (broken) magnitudes.rule_x(1e9 * broken->time, tension_ink, 1.6);
     }
     lacuna::draw_legend_row(page, {upper.left, 20}, width - upper.left,
                             {{legend_mark::line, stress_ink, "stress"},
@@ -102,8 +102,8 @@ std::string arrival_words(char const* what, series const& front, std::optional<d
     if (speed) return std::string("The ") + what + " moves down at " + number_text("%.3g", 1e-3 * *speed) + " µm/ns. ";
     auto const ends =
         std::minmax_element(front.begin(), front.end(), [](auto const& a, auto const& b) { return a[0] < b[0]; });
-    return std::string("The ") + what + " is there from " + number_text("%.2g", (*ends.first)[0]) + " to " +
-           number_text("%.2g", (*ends.second)[0]) + " ns on, in no order of depth. ";
+    return std::string("The ") + what + " arrives between " + number_text("%.2g", (*ends.first)[0]) + " and " +
+           number_text("%.2g", (*ends.second)[0]) + " ns, not in the order of depth. ";
 }
 
 std::string front_words(snapshot const& s, double height_um) {
@@ -117,7 +117,7 @@ std::string front_words(snapshot const& s, double height_um) {
                  " MPa: " + number_text("%.2g", 100 * b->pressure / b->strength) +
                  " % of the stress that broke the fibre (" + number_text("%.0f", 1e-6 * b->strength) + " MPa).";
     } else {
-        words += s.run.cracks.empty() ? "No bond breaks." : "No pore pressure to compare with.";
+        words += s.run.cracks.empty() ? "No bond breaks." : "There is no pore pressure at the first break.";
     }
     if (s.run.peak_pore_pressure > 0)
         words += " The largest pressure of a pore in the whole run is " +

@@ -33,12 +33,12 @@ std::string sentence_of(first_crack_times const& t) {
     std::string words = std::to_string(t.elastic.size()) + " of " + count_text(t.count(), "first crack") +
                         " came within " + number_text("%.3g", elastic_ns) + " ns (elastic).";
     if (t.slow.empty()) return words;
-    words += " Of the later ones t √P is " + number_text("%.3g", t.product) + " ns √MPa (quartiles " +
+    words += " For the later ones t √P is " + number_text("%.3g", t.product) + " ns √MPa (quartiles " +
              number_text("%.3g", t.product_low) + " to " + number_text("%.3g", t.product_high) + ")";
     bool const constant = t.slope && std::fabs(*t.slope + 0.5) <= 0.1;
     if (t.slope)
         words += ", and within a packing t goes as P to the power " + number_text("%.2f", *t.slope) +
-                 (constant ? ": the product is constant, so that this \"strength\" is a run length"
+                 (constant ? ": the product is constant, so that this \"strength\" only reflects the run's duration"
                            : "; -0.50 would make the product constant");
     words += ".";
     if (constant)

@@ -43,7 +43,7 @@ std::string seeds_text(std::vector<std::uint64_t> seeds) {
     return text;
 }
 
-/// A reason without its numbers, which differ from run to run.
+/// A reason with "..." for its numbers, because these differ from run to run.
 std::string kind_of(std::string const& reason) {
     std::string kind;
     for (std::size_t k = 0; k < reason.size();) {
@@ -55,7 +55,7 @@ std::string kind_of(std::string const& reason) {
     return kind;
 }
 
-std::string what_was_run(study_result const& study) {
+std::string runs_section(study_result const& study) {
     std::vector<std::vector<std::string>> rows;
     std::map<std::string, std::size_t> reasons;
     std::size_t runs = 0, bad = 0;
@@ -67,7 +67,7 @@ std::string what_was_run(study_result const& study) {
             seeds.push_back(packing.seed);
             for (load_run const& p : packing.runs) {
                 ++zone_runs;
-                zone_whole += p.whole();
+                zone_whole += p.ran_to_end();
                 zone_bad += p.invalid.has_value();
                 if (p.invalid) ++reasons[kind_of(*p.invalid)];
             }
@@ -77,26 +77,27 @@ std::string what_was_run(study_result const& study) {
         runs += zone_runs;
         bad += zone_bad;
     }
-    std::string text = heading("What was run");
+    std::string text = heading("Packings and runs");
     text +=
         paragraph("Specimens of " + lacuna::to_text(study.length_um) + " by " + lacuna::to_text(study.height_um) +
                   " µm" + (study.dry ? ", without pore fluid" : ", with pore fluid") + ". Each load was sought from " +
                   lacuna::to_text(study.lowest_MPa) + " to " + lacuna::to_text(study.highest_MPa) +
                   " MPa on a logarithmic scale, to " + number_text("%.3g", 100 * study.resolution) +
-                  " %. A run stops once its answer is certain; the others ran whole. The time step is " +
+                  " %. A run stops once its criterion is met; the others ran to the end. The time step is " +
                   number_text("%.3g", study.step_share) + " of the rigorous bound.");
-    text += html_table("Packings and runs", {"zone", "packings", "seeds", "runs", "ran whole", "invalid"}, rows);
+    text += html_table("Number of packings and runs",
+                       {"zone", "packings", "seeds", "runs", "to the end", "invalid"}, rows);
     if (bad == 0) {
         text += paragraph("No run is invalid.");
     } else {
         text += paragraph(std::to_string(bad) + " of " + count_text(runs, "run") +
-                          " do not count and enter no number of this page:");
+                          " do not count; no number on this page includes them:");
         rows.clear();
         for (auto const& [why, number] : reasons) rows.push_back({why, std::to_string(number)});
-        text += html_table("Invalid runs", {"why", "runs"}, rows, table_cells::wrapped);
+        text += html_table("Invalid runs", {"reason", "runs"}, rows, table_cells::wrapped);
     }
     text += paragraph("Code: " + (study.code.empty() ? "not recorded" : study.code) +
-                      ". The choices that the paper leaves open:");
+                      ". The open choices, which the paper does not state:");
     return text + "<pre tabindex=\"0\">" + html_text(study.choices.empty() ? "defaults" : study.choices) + "</pre>\n";
 }
 
@@ -124,13 +125,14 @@ std::string tables(study_result const& study, std::vector<table3_cell> const& ce
                       "cut. All in MPa.");
     text += html_table("Medians of this study and the paper's loads (MPa)",
                        {"zone", "first crack", "capacity", "complete"}, side_by_side, table_cells::wrapped);
-    text += html_table("The same with its scatter (MPa)",
+    text += html_table("Medians with their scatter (MPa)",
                        {"load", "packings", "invalid", "none", "median", "quartiles", "95 % of the median", "paper",
                         "paper's percentile"},
                        full);
-    return text + paragraph("None: the packing holds at the highest load; it counts as above every number. Invalid: no "
-                            "valid run decides the load; it does not count. The interval of the median is a percentile "
-                            "bootstrap over packings; the percentile is the share of packings below the paper's load.");
+    return text + paragraph("None: packings that hold at the highest load; their load counts as infinite. Invalid: "
+                            "packings whose load no valid run decides; they do not count. The interval of the median is "
+                            "a percentile bootstrap over packings. The percentile is the share of packings below the "
+                            "paper's load.");
 }
 
 std::string limits(study_result const& study, std::vector<table3_cell> const& cells) {
@@ -142,15 +144,16 @@ std::string limits(study_result const& study, std::vector<table3_cell> const& ce
     }
     std::vector<std::string> lines;
     lines.push_back("Loads are known to " + number_text("%.3g", 100 * study.resolution) +
-                    " % at best; where more load does not break more, the load is the one that the search met.");
+                    " % at best. If a higher load does not always break more, the load is one of several possible "
+                    "ones.");
     lines.push_back("The smallest cell of Table 3 has " + count_text(std::size_t(fewest), "packing") + "; " +
                     count_text(std::size_t(none), "load") + " above " + lacuna::to_text(study.highest_MPa) +
                     " MPa and " + count_text(std::size_t(invalid), "undecided load") + " over all cells.");
     lines.push_back(
-        "The median damage is drawn where at least half of the packings have whole runs on both sides; runs "
-        "that stopped early, at high loads, are not in it.");
-    lines.push_back("Where t √P is constant a load depends on how long one waits: see the first cracks below 2 ns "
-                    "for what the load itself breaks.");
+        "The median damage is drawn where at least half of the packings have runs to the end on both sides. It leaves "
+        "out runs that stopped early, at high loads.");
+    lines.push_back("Where t √P is constant, a load depends on the duration of the runs. First cracks within 2 ns come "
+                    "from elastic waves.");
     lines.push_back("Snapshots and fronts are single runs of one packing each, not medians.");
     std::string text = heading("Limits") + "<ul>\n";
     for (std::string const& line : lines) text += "<li>" + html_text(line) + "</li>\n";
@@ -162,9 +165,9 @@ std::string show(std::string const& directory, figure_section const& section) {
     for (figure const& f : section.figures) {
         std::string const path = directory + "/" + f.stem;
         text += "<figure><h3>" + html_text(f.title) + "</h3>\n";
-        text += f.photo ? html_picture(path + ".png", "image/png", section.title + ", " + f.title)
+        text += f.as_png ? html_picture(path + ".png", "image/png", section.title + ", " + f.title)
                         : html_picture(path + ".svg", "image/svg+xml", section.title + ", " + f.title);
-        text += "\n<figcaption>" + html_text(f.sentence) + "</figcaption></figure>\n";
+        text += "\n<figcaption>" + html_text(f.caption) + "</figcaption></figure>\n";
     }
     return text + "</div>\n";
 }
@@ -179,7 +182,7 @@ std::string study_page(std::string const& directory, study_result const& study, 
         paragraph("At which load each zone of articular cartilage cracks, beside Hong, Evans and Mente: " +
                       count_text(study.packings.size(), "random packing") + " of " + count_text(zones, "zone") + ".",
                   "lead");
-    text += what_was_run(study) + tables(study, cells);
+    text += runs_section(study) + tables(study, cells);
     for (figure_section const& section : sections)
         if (!section.figures.empty()) text += show(directory, section);
     return text + limits(study, cells) + page_end();

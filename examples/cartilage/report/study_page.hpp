@@ -8,15 +8,15 @@
 
 namespace cartilage {
 
-/// Figures that belong together on the page.
+/// A section of the page with related figures.
 struct figure_section {
     std::string title;
-    std::string explanation; ///< what is drawn, for all of them
+    std::string explanation; ///< text above the figures
     std::vector<figure> figures;
 };
 
-/// The page of a study, complete: its pictures are those that stand in `directory`, and become part of it.
-/// \throws std::runtime_error when a picture cannot be read
+/// The complete page of a study. Pictures are read from `directory` and embedded.
+/// \throws std::runtime_error if a picture cannot be read
 std::string study_page(std::string const& directory, study_result const& study, std::vector<table3_cell> const& cells,
                        std::vector<figure_section> const& sections);
 

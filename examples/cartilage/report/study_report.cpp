@@ -29,7 +29,7 @@ void check(study_result const& study) {
         }
 }
 
-/// Removes what an earlier report left: it may have had figures that this one does not.
+/// Removes the files of an earlier report, because it may have had further figures.
 void clear_report(std::string const& directory) {
     for (std::string const& name : report_files()) std::filesystem::remove(directory + "/" + name);
 }
@@ -56,33 +56,33 @@ void write_report(std::string const& directory, study_result const& study) {
     clear_report(directory);
     write_whole(directory + "/table3.csv", table3_csv(cells, study));
     std::vector<figure_section> const sections{
-        {"Scatter of the loads", "Every packing's load on a logarithmic scale, beside the paper's one number per zone.",
+        {"Scatter of the loads",
+         "The load of every packing on a logarithmic scale, beside the paper's single number per zone.",
          draw_threshold_figures(directory, study, cells)},
-        {"Damage against load", "Broken bonds at the end of the runs that ran whole, and their median.",
+        {"Damage against load",
+         "Broken bonds at the end of the runs that did not stop at a criterion, and their median.",
          draw_damage_figures(directory, study)},
         {"Time of the first crack",
-         "Two mechanisms can compete. Elastic waves break bonds within about 2 ns, if the load is large enough. Free "
-         "particles that flow out break them later: then t √P is constant, and any load cracks if one waits.",
+         "There are two mechanisms. Elastic waves break bonds within about 2 ns if the load is large enough. Free "
+         "particles that flow out break bonds later; then t √P is constant, and any load cracks after some time.",
          draw_first_crack_figures(directory, study)},
-        {"Where bonds break",
-         "All breaks of each packing's telling run: the one at its capacity, else the one with most breaks.",
+        {"Positions of the breaks",
+         "All breaks of each packing's representative run: the run at its capacity, else the run with most breaks.",
          draw_crack_figures(directory, study)},
-        {"In which order layers fail",
-         "When each layer lost half of its bonds, in each packing's run with most such layers. Layer 0 is the top "
-         "fibre "
-         "(surface), the top fifth (middle), the centre fibre (deep). On the right: in how many packings a layer came "
-         "to that, and in how many it was the first.",
+        {"Order in which layers fail",
+         "Times at which each layer lost half of its bonds. Each packing gives its run with most such layers. Layer 0 "
+         "is the top fibre (surface), the top fifth (middle) or the centre fibre (deep). On the right: the number of "
+         "packings in which the layer lost half of its bonds, and in which it was the first layer to do so.",
          draw_layer_figures(directory, study)},
         {"Damage at the loads of the paper's Figures 10 to 12",
          "Pore pressure as dots, broken bonds as dashes, at the end of a single run.",
          draw_snapshot_figures(directory, study)},
-        {"Force and pore pressure on their way down",
-         "Above: where stress and pore pressure first reach a tenth of their largest layer mean, and every break. "
-         "Below: the largest layer mean of each, by size, and the first break. The paper says that bonds break while "
-         "the "
-         "pore pressure is still low.",
+        {"Fronts of stress and pore pressure",
+         "Upper plot: time at which the layer means of stress and pore pressure first reach a tenth of their largest "
+         "value, and every break. Lower plot: the largest layer mean of each, by magnitude, and the first break. The "
+         "paper says that bonds break while the pore pressure is still low.",
          draw_front_figures(directory, study)}};
-    // Last, because its presence says that the report is finished.
+    // Last, because its presence means that the report is finished.
     write_whole(directory + "/report.html", study_page(directory, study, cells, sections));
 }
 

@@ -12,11 +12,11 @@
 
 namespace lacuna {
 
-/// What one change of one choice does to a quantity.
+/// Effect of one changed choice on a quantity.
 struct tornado_bar {
-    std::string label; ///< the value that the choice was changed to
-    double change = 0; ///< of the quantity; not finite: no bar, only the label
-    double low = 0;    ///< ends of the change's interval; both equal to `change` where there is none
+    std::string label; ///< the changed value of the choice
+    double change = 0; ///< of the quantity; not finite: only the label is drawn
+    double low = 0;    ///< ends of the interval of the change; both equal to `change` if there is none
     double high = 0;
 };
 
@@ -25,6 +25,7 @@ struct tornado_row {
     std::string name;
     std::vector<tornado_bar> bars;
 
+    /// Largest finite change, by magnitude.
     double reach() const noexcept {
         double most = 0;
         for (tornado_bar const& bar : bars)
@@ -33,15 +34,15 @@ struct tornado_row {
     }
 };
 
-/// Height of a tornado plot's frame that gives each bar a line of its own, px.
+/// Height of the frame of a tornado plot with one line of text for each bar, px.
 inline double tornado_height(std::vector<tornado_row> const& rows, plot_style const& style = {}) noexcept {
     double bars = 0;
     for (tornado_row const& row : rows) bars += double(std::max<std::size_t>(row.bars.size(), 1)) + 0.5;
     return std::max(bars, 1.0) * 1.5 * style.text_size;
 }
 
-/// Bars from zero to what each change does, the choice with the largest change on top, whiskers for intervals. Names
-/// stand left of the frame, what a choice was changed to at the end of its bar. \param change axis of the change
+/// Draws bars from zero to each change, with whiskers for intervals. The choice with the largest change is on top.
+/// Names of choices are left of the frame, changed values at the ends of the bars. \param change axis of the change
 inline void draw_tornado(canvas& page, rectangle const& frame, std::vector<tornado_row> rows, plot_axis change,
                          plot_style const& style = {}) {
     std::vector<std::pair<double, std::size_t>> order;
@@ -78,7 +79,7 @@ inline void draw_tornado(canvas& page, rectangle const& frame, std::vector<torna
             bool const left = std::isfinite(bar.change) && bar.change < 0;
             double const edge = std::clamp(tip, plane.x().low, plane.x().high);
             canvas::point at = plane.at(edge, middle);
-            // Where there is no room beyond the bar the words stand on the other side of zero.
+            // If the label does not fit beyond the bar, it is drawn on the other side of zero.
             double const needed = page.text_width(bar.label, 0.85 * style.text_size) + 8;
             bool fits = left ? at[0] - needed > frame.left : at[0] + needed < frame.right;
             bool const to_left = fits ? left : !left;

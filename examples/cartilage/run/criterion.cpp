@@ -20,7 +20,7 @@ std::optional<double> time_met(load_run const& r, criterion c) {
     case criterion::first_crack: return r.first_crack_time;
     case criterion::capacity: return r.capacity_time;
     case criterion::complete: return r.complete_time;
-    default: return r.whole() ? std::optional(r.end_time) : std::nullopt;
+    default: return r.ran_to_end() ? std::optional(r.end_time) : std::nullopt;
     }
 }
 

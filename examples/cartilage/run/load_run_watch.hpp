@@ -24,60 +24,60 @@
 
 namespace cartilage {
 
-inline constexpr double largest_opening = 0.01; // of the ledger, over its largest term
-inline constexpr double largest_jump = 0.1;     // of the kinetic energy in one step, over the ledger's largest term
-inline constexpr long long settled = 100;       // steps: from rest, every term of the first ones is a jump
-inline constexpr long long between_looks = 16;  // steps
+inline constexpr double largest_residual = 0.01;     // of the ledger, over its largest term
+inline constexpr double largest_jump = 0.1;          // of the kinetic energy, over the ledger's largest term
+inline constexpr long long first_checked_step = 100; // earlier steps start from rest, so that every change is a jump
+inline constexpr long long pore_check_interval = 16; // steps
 
-/// The energy ledger of a run, kept in samples: to keep it in every step would cost a third of the run's time. A sample
-/// is a row of steps in which the ledger is kept; what it opens by stands for all steps until the next one.
+/// The energy ledger of a run in samples, because a ledger in every step would cost a third of the run's time. A sample
+/// is a number of consecutive steps with a ledger. Its residual is scaled to all steps up to the next sample.
 class ledger_samples {
 public:
     static constexpr long long period = 256, length = 32;
     static constexpr bool has(long long step) { return step < period || step % period < length; }
 
-    /// The ledger after a step that has() one.
+    /// Adds the ledger after a step for which has() is true.
     void add(lacuna::energy_ledger const& ledger, long long step) {
         largest_ = std::max(largest_, ledger.largest());
-        jump_ = !begins(step) && step > settled ? std::fabs(ledger.kinetic - kinetic_) : 0;
+        jump_ = !begins(step) && step > first_checked_step ? std::fabs(ledger.kinetic - kinetic_) : 0;
         kinetic_ = ledger.kinetic;
-        here_ = ledger.residual() * (step <= period + length ? 1 : double(period) / length);
+        sample_residual_ = ledger.residual() * (step <= period + length ? 1 : double(period) / length);
         if (has(step + 1)) return;
-        before_ += here_;
-        here_ = 0;
+        earlier_residual_ += sample_residual_;
+        sample_residual_ = 0;
     }
-    /// By how much the ledger has opened so far, over its largest term; with its sign.
-    double opening() const { return largest_ > 0 ? (before_ + here_) / largest_ : 0; }
-    /// By how much the kinetic energy changed in the last step, the same way.
+    /// Signed residual of the ledger so far, over its largest term.
+    double residual() const { return largest_ > 0 ? (earlier_residual_ + sample_residual_) / largest_ : 0; }
+    /// Change of the kinetic energy in the last step, over the largest term of the ledger.
     double jump() const { return largest_ > 0 ? jump_ / largest_ : 0; }
 
 private:
     static bool begins(long long step) { return step == 0 || !has(step - 1); }
 
     double largest_ = 0, kinetic_ = 0, jump_ = 0;
-    double before_ = 0, here_ = 0; // J: by earlier samples, by this one
+    double earlier_residual_ = 0, sample_residual_ = 0; // J
 };
 
-/// Counts the damage of fibres and layers as it comes.
+/// Counts the damage of fibres and layers break by break.
 class damage_count {
 public:
     explicit damage_count(specimen const& s) : cut_(s.fibres.size(), 0), layer_of_(s.fibres.size()) {
-        std::map<std::pair<int, int>, load_run::layer_damage> by_place;
+        std::map<std::pair<int, int>, load_run::layer_damage> by_layer;
         for (auto const& fibre : s.fibres) {
-            load_run::layer_damage& layer = by_place[{int(fibre.zone), fibre.layer}];
+            load_run::layer_damage& layer = by_layer[{int(fibre.zone), fibre.layer}];
             layer.zone = lacuna::to_string(fibre.zone);
             layer.layer = fibre.layer;
             layer.bonds += int(fibre.bonds.size());
             bonds_ += int(fibre.bonds.size());
         }
         for (std::size_t f = 0; f < s.fibres.size(); ++f) {
-            auto const place = by_place.find({int(s.fibres[f].zone), s.fibres[f].layer});
-            layer_of_[f] = std::size_t(std::distance(by_place.begin(), place));
+            auto const found = by_layer.find({int(s.fibres[f].zone), s.fibres[f].layer});
+            layer_of_[f] = std::size_t(std::distance(by_layer.begin(), found));
         }
-        for (auto const& [place, layer] : by_place) layers_.push_back(layer);
+        for (auto const& [key, layer] : by_layer) layers_.push_back(layer);
     }
 
-    /// Bonds beside those of fibres are not part of the damage.
+    /// Adds a break. Breaks of cross links do not count.
     void add(load_run::crack const& crack) {
         if (crack.fibre < 0) return;
         ++broken_;
@@ -91,7 +91,7 @@ public:
     }
 
     std::vector<load_run::layer_damage> const& layers() const { return layers_; }
-    /// In every zone the first layer is first among the layers of the zone nearest to the surface.
+    /// The first layer of the zone nearest to the surface; null: there is no fibre.
     load_run::layer_damage const* first_layer() const { return layers_.empty() ? nullptr : &layers_.front(); }
     double broken_fraction() const { return bonds_ == 0 ? 0.0 : double(broken_) / double(bonds_); }
     double cut_fraction() const { return cut_.empty() ? 0.0 : double(cut_count_) / double(cut_.size()); }
@@ -106,8 +106,8 @@ private:
     int bonds_ = 0, broken_ = 0;
 };
 
-/// Follows a run at one load: its damage, its guards (the energy, and what the library throws), and whether the criterion
-/// is met.
+/// Follows a run at one load. It counts the damage, decides whether the criterion is met, and marks the run as invalid
+/// if its energy ledger or kinetic energy are wrong or the library stops it as unstable.
 class load_run_watch {
 public:
     static constexpr lacuna::stage stages = lacuna::stage::step | lacuna::stage::breakage;
@@ -121,7 +121,7 @@ public:
     ending const& rule() const { return ending_; }
     load_run const& result() const { return result_; }
 
-    /// Runs until the criterion is met or the run is over, with further observers beside. \throws interruption
+    /// Runs until the criterion is met or the run is over, with further observers. \throws interruption
     template <class Simulation, class... Observers>
     load_run const& follow(criterion c, Simulation& sim, long long steps, Observers&... others) {
         criterion_ = c;
@@ -135,7 +135,7 @@ public:
             result_.ended = "invalid";
         else if (result_.ended.empty())
             result_.ended = is_met() ? name_of(c) : ending_.at_longest();
-        settle(sim.time());
+        update_result(sim.time());
         return result_;
     }
 
@@ -150,8 +150,8 @@ public:
     template <class Simulation>
     lacuna::run_control on_step(Simulation const& sim) {
         if (lacuna::stop_signal() != 0) throw interruption();
-        // With every break, whether the run halts there or not: it must not leave a trace in the result.
-        if (broke_ || sim.steps() % between_looks == 0) look_at_pores(sim);
+        // At every break, even if the run does not stop there: the result must not depend on where it stops.
+        if (broke_ || sim.steps() % pore_check_interval == 0) update_peak_pressure(sim);
         broke_ = false;
         double const time = sim.time();
         bool quiet = false;
@@ -161,9 +161,9 @@ public:
             quiet = ending_.is_quiet(sim.energy().kinetic, time, last_break);
             if (energy_.jump() > largest_jump)
                 result_.invalid = "kinetic energy jumps at " + lacuna::to_text(time) + " s";
-            else if (std::fabs(energy_.opening()) > largest_opening)
-                result_.invalid = "energy ledger opens by " + lacuna::to_text(energy_.opening()) +
-                                  " of its largest term until " + lacuna::to_text(time) + " s";
+            else if (std::fabs(energy_.residual()) > largest_residual)
+                result_.invalid = "energy ledger is open by " + lacuna::to_text(energy_.residual()) +
+                                  " of its largest term at " + lacuna::to_text(time) + " s";
         }
         if (quiet)
             result_.ended = "quiet";
@@ -184,10 +184,10 @@ private:
         }
     }
 
-    /// The damage as it stands.
-    void settle(double time) {
+    /// Copies the present damage to the result.
+    void update_result(double time) {
         result_.end_time = time;
-        result_.energy_residual_fraction = energy_.opening();
+        result_.energy_residual_fraction = energy_.residual();
         result_.first_crack_time = damage_.first_crack_time;
         result_.complete_time = damage_.complete_time;
         result_.broken_fraction = damage_.broken_fraction();
@@ -199,7 +199,7 @@ private:
         }
     }
     template <class Simulation>
-    void look_at_pores([[maybe_unused]] Simulation const& sim) {
+    void update_peak_pressure([[maybe_unused]] Simulation const& sim) {
         if constexpr (requires { sim.flow().network(); })
             for (double const p : sim.flow().network().pressure)
                 result_.peak_pore_pressure = std::max(result_.peak_pore_pressure, p);
@@ -211,7 +211,7 @@ private:
     criterion criterion_ = criterion::end;
     load_run result_;
     ledger_samples energy_;
-    bool broke_ = false;
+    bool broke_ = false; // a bond broke in this step
 };
 
 } // namespace cartilage

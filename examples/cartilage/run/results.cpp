@@ -20,9 +20,9 @@ crack_record crack_of(specimen const& s, lacuna::break_event<2> const& event) {
     c.shear = event.mode == lacuna::bond_state::broken_in_shear;
     auto const first = std::size_t(c.first), second = std::size_t(c.second);
     c.fibre = s.fibre[first] == s.fibre[second] ? s.fibre[first] : -1;
-    auto const way = s.discs.position[second] - s.discs.position[first];
+    auto const along = s.discs.position[second] - s.discs.position[first];
     c.position = {event.position[0], event.position[1]};
-    c.direction = {way[0], way[1]};
+    c.direction = {along[0], along[1]};
     c.normal_force = event.normal_force;
     c.shear_force = event.shear_force;
     c.energy = event.energy;

@@ -17,36 +17,37 @@
 #include "cartilage/specimen/specimen.hpp"
 
 /// \file
-/// What a run leaves behind, as plain data in SI units: breaks sorted to fibres and layers, and the picture of the damage.
+/// Results of a run as plain data in SI units: breaks by fibre and layer, and the picture of the damage.
 
 namespace cartilage {
 
-/// One break of a bond.
+/// A broken bond.
 struct crack_record {
     long long step = 0;
     double time = 0; ///< s
-    int bond = 0;    ///< number in the specimen
-    int first = 0;   ///< its particles
-    int second = 0;
-    bool shear = false; ///< else tension
-    int fibre = -1;
+    int bond = 0;    ///< index in the specimen
+    int first = 0;   ///< index of its first particle
+    int second = 0;  ///< index of its second particle
+    bool shear = false; ///< broke in shear; else in tension
+    int fibre = -1;     ///< index of its fibre; -1: a cross link
     std::array<double, 2> position{};  ///< m
     std::array<double, 2> direction{}; ///< along the bond
     double normal_force = 0;           ///< N, positive in tension
     double shear_force = 0;            ///< N
-    double energy = 0;                 ///< J, stored in the bond and lost with it
+    double energy = 0;                 ///< J, stored in the bond when it broke
 };
 
-/// Fibres of the same zone and layer.
+/// Damage of the fibres of one zone and layer.
 struct layer_result {
     std::string zone;
-    int layer = 0; ///< surface: 0 on top; deep: 0 at the centre; middle: fifths of the depth, 0 on top
+    int layer = 0; ///< surface: 0 is the top fibre; deep: 0 is the centre; middle: 0 is the top fifth
     std::size_t fibres = 0;
     std::size_t bonds = 0;
     std::size_t broken = 0;
     double broken_fraction() const { return bonds == 0 ? 0.0 : double(broken) / double(bonds); }
 };
 
+/// Result of `cartilage run`.
 struct run_result {
     specimen_report specimen;
     long long steps = 0;
@@ -76,13 +77,13 @@ struct run_result {
     }
 };
 
-/// The record of a break, with its fibre and the direction in which the bond was laid.
+/// The record of a break. Its direction is that of the bond in the specimen before loading.
 crack_record crack_of(specimen const& s, lacuna::break_event<2> const& event);
 
-/// Sorts the cracks of `r` to layers (by zone, then number) and counts the fibres with at least one.
+/// Counts the cracks of `r` in each layer (sorted by zone, then layer) and the fibres with at least one crack.
 void sort_cracks(specimen const& s, run_result& r);
 
-/// The damage at a time of the run. \param position of the particles by id, m \param pores as they stand
+/// The scene of the damage. \param position of each particle, by id, m \param pores at that time \param time s
 lacuna::scene damage_scene(specimen const& s, options const& o, std::span<lacuna::vec<double, 2> const> position,
                            std::span<crack_record const> cracks, std::vector<lacuna::scene::pore> pores, double time);
 

@@ -16,8 +16,8 @@ public:
 
     load_run run_until(criterion c) override {
         load_run const& result = watch_.result();
-        if (result.invalid || result.whole() || meets(result, c)) return result;
-        // With the same last step in mind each time it is the same run, bit for bit, as one without a halt.
+        if (result.invalid || result.ran_to_end() || meets(result, c)) return result;
+        // The last step is always the same one, so that the run has the bits of a run without stops.
         return watch_.follow(c, *sim_, steps_ - sim_->steps());
     }
 
@@ -30,7 +30,7 @@ private:
 } // namespace
 
 std::unique_ptr<resumable_run> start_load_run(specimen const& s, options const& o) {
-    return visit_model(o.open, o.dry, [&]<class Model>(std::type_identity<Model>) -> std::unique_ptr<resumable_run> {
+    return visit_model(o.choices, o.dry, [&]<class Model>(std::type_identity<Model>) -> std::unique_ptr<resumable_run> {
         return std::make_unique<model_run<Model>>(s, o);
     });
 }

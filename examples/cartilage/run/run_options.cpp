@@ -13,7 +13,7 @@ namespace cartilage {
 
 namespace {
 
-/// The command line as written, before it is understood.
+/// The options as text from the command line.
 struct run_arguments : model_arguments {
     std::string zone, load, seed = "1", threads = "1", out, picture_every, time_step;
     bool quiet = false, force = false, allow_unstable_step = false;
@@ -21,15 +21,15 @@ struct run_arguments : model_arguments {
 
 void add_specimen_options(CLI::App& app, run_arguments& args) {
     app.add_option("--zone", args.zone, "surface, middle, deep or whole")->required()->type_name("ZONE");
-    app.add_option("--seed", args.seed, "of the packing (1)")->type_name("N");
+    app.add_option("--seed", args.seed, "seed of the packing (1)")->type_name("N");
     add_model_options(app, args);
     app.add_option("--out", args.out, "directory for the results (named after zone, load and seed)")->type_name("DIR");
-    app.add_flag("--force", args.force, "replace the results that are in DIR");
+    app.add_flag("--force", args.force, "replace the results in DIR");
     app.add_flag("--quiet", args.quiet, "no progress, no table");
 }
 
-options understand(run_arguments const& args, command what) {
-    options o = understand_model(args);
+options checked_options(run_arguments const& args, command what) {
+    options o = model_options(args);
     o.what = what;
     o.zone = zone_of("--zone", args.zone);
     std::uint64_t const largest_seed = UINT64_MAX;
@@ -62,7 +62,8 @@ std::optional<options> parse_command_line(int argc, char const* const* argv, std
     run_arguments args;
     CLI::App app("Articular cartilage under load: a bonded-particle model with pore fluid, after Hong, Evans and "
                  "Mente.\nResults go into a directory: summary.json, cracks.csv, pictures as PNG and SVG.\n"
-                 "Exit status: 0 done, 1 a file could not be written, 2 bad request, 3 run became unstable, 128 + number of a signal that stopped it.",
+                 "Exit status: 0 done, 1 a file could not be written, 2 bad request, 3 the run became unstable, "
+                 "128 + number of the signal that stopped it.",
                  "cartilage");
     app.require_subcommand(1);
     app.failure_message(CLI::FailureMessage::simple);
@@ -70,21 +71,21 @@ std::optional<options> parse_command_line(int argc, char const* const* argv, std
 
     CLI::App& run = *app.add_subcommand("run", "Load a specimen and see where it cracks");
     add_specimen_options(run, args);
-    run.add_option("--load", args.load, "on the top row, MPa")->required()->type_name("MPA");
+    run.add_option("--load", args.load, "pressure on the top row, MPa")->required()->type_name("MPA");
     add_run_options(run, args);
-    run.add_option("--time-step", args.time_step, "ps, in place of 0.4 of the rigorous bound")->type_name("PS");
+    run.add_option("--time-step", args.time_step, "ps (0.4 of the rigorous bound)")->type_name("PS");
     run.add_flag("--allow-unstable-step", args.allow_unstable_step, "run even with a time step above the rigorous bound");
     run.add_option("--threads", args.threads, "1 to 1024; the results do not depend on it (1)")->type_name("N");
-    run.add_option("--picture-every", args.picture_every, "a damage picture every so many steps")->type_name("STEPS");
+    run.add_option("--picture-every", args.picture_every, "a damage picture every STEPS steps (none)")->type_name("STEPS");
 
-    CLI::App& pack = *app.add_subcommand("pack", "Build a specimen, draw it and give its statistics");
+    CLI::App& pack = *app.add_subcommand("pack", "Build and draw a specimen, and print its statistics");
     add_specimen_options(pack, args);
 
-    // Commands with an own set of options; here for the list of commands.
+    // These commands parse their own options. Here they only appear in the help.
     for (command_name const& other : others) app.add_subcommand(other.name, other.description);
 
     if (!parse_arguments(app, argc, argv)) return std::nullopt;
-    return understand(args, run.parsed() ? command::run : command::pack);
+    return checked_options(args, run.parsed() ? command::run : command::pack);
 }
 
 } // namespace cartilage

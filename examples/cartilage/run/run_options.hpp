@@ -15,9 +15,9 @@ struct command_name {
     char const* description;
 };
 
-/// Reads the command line of `run` and `pack`. Returns nothing when only help or the version was asked for, which is then
-/// on stdout. \param others commands that the help lists beside these
-/// \throws usage_error for everything that is not understood or out of range
+/// Reads the command line of `run` and `pack`. \param others further commands that the help lists
+/// \return none if only help or the version was requested, which is then on stdout
+/// \throws usage_error for unknown options and values that are not allowed
 std::optional<options> parse_command_line(int argc, char const* const* argv, std::span<command_name const> others);
 
 } // namespace cartilage

@@ -19,9 +19,9 @@ void add_request(json_writer& json, options const& o) {
     json.value("preset", o.preset);
     json.open('{', "choices");
     for (choice_field const& f : choice_fields()) {
-        double const value = f.get(o.open);
+        double const value = f.get(o.choices);
         if (f.type == choice_field::kind::word || !std::isfinite(value))
-            json.value(f.name, f.text(o.open));
+            json.value(f.name, f.text(o.choices));
         else
             json.value(f.name, value);
     }

@@ -10,22 +10,22 @@
 
 namespace cartilage {
 
-/// Names of the files that `run` and `pack` leave, for lacuna::run_directory; `#` is a number.
+/// Names of the files that `run` and `pack` write, for lacuna::run_directory; `#` stands for a number.
 std::vector<std::string> run_results();
 
-/// \name Writers; each file appears whole or not at all. \throws std::runtime_error
+/// \name Writers. Each file appears complete or not at all. \throws std::runtime_error if it cannot be written
 /// \{
 void write_summary(std::string const& path, options const& o, run_result const& r);
 void write_statistics(std::string const& path, options const& o, specimen_report const& s);
 /// \}
 
-/// \name cracks.csv, which grows while a run goes on
+/// \name Lines of cracks.csv, which grows during a run
 /// \{
 std::string crack_heading();
 std::string crack_line(crack_record const& c);
 /// \}
 
-/// \name The short tables for a person
+/// \name Short tables for the terminal
 /// \{
 void print_result(std::FILE* out, options const& o, run_result const& r);
 void print_statistics(std::FILE* out, options const& o, specimen_report const& s);

@@ -12,7 +12,7 @@
 
 namespace cartilage {
 
-/// The pores of a run as they stand; none in a dry one.
+/// The present pores of a run with their pressures, Pa; empty in a dry run.
 template <class Simulation>
 std::vector<lacuna::scene::pore> pores_of([[maybe_unused]] Simulation const& sim) {
     std::vector<lacuna::scene::pore> pores;
@@ -24,7 +24,7 @@ std::vector<lacuna::scene::pore> pores_of([[maybe_unused]] Simulation const& sim
     return pores;
 }
 
-/// The damage of a run as it stands.
+/// The scene of a run's present damage.
 template <class Simulation>
 lacuna::scene picture_of(Simulation const& sim, specimen const& s, options const& o,
                          std::span<crack_record const> cracks) {

@@ -23,7 +23,7 @@ namespace cartilage {
 
 namespace {
 
-/// Watches a run: keeps its cracks, its largest pressure, its progress and pictures, and says when it is over.
+/// Observes a run: records cracks and the largest pore pressure, shows progress, draws pictures, and ends the run.
 class watch {
 public:
     static constexpr lacuna::stage stages = lacuna::stage::start | lacuna::stage::step | lacuna::stage::breakage;
@@ -72,7 +72,7 @@ public:
         log_.begin();
     }
 
-    /// All cracks are in the file: also of a run that is unstable.
+    /// Writes all cracks to the file. Needed for an unstable run as well.
     void flush() { log_.flush(); }
     void finish(long long steps) { progress_.finish(steps, "broken " + std::to_string(result_.cracks.size())); }
 
@@ -98,16 +98,16 @@ run_result follow(specimen const& s, options const& o, lacuna::run_directory& ou
     long long const steps = end.steps(sim.resolve_time_step());
     result.ended = end.at_longest();
 
-    lacuna::progress_options speak;
-    speak.sink = progress;
-    speak.steps = steps;
-    speak.particles = static_cast<long long>(sim.size());
-    speak.terminal = lacuna::is_terminal(progress);
-    watch observer(s, o, out, speak, end, result);
+    lacuna::progress_options progress_settings;
+    progress_settings.sink = progress;
+    progress_settings.steps = steps;
+    progress_settings.particles = static_cast<long long>(sim.size());
+    progress_settings.terminal = lacuna::is_terminal(progress);
+    watch observer(s, o, out, progress_settings, end, result);
 
     auto const start = std::chrono::steady_clock::now();
     try {
-        sim.run(speak.steps, observer);
+        sim.run(progress_settings.steps, observer);
     } catch (lacuna::unstable_run const&) {
         observer.flush();
         throw;
@@ -139,7 +139,7 @@ run_result follow(specimen const& s, options const& o, lacuna::run_directory& ou
 
 run_result simulate(specimen const& s, options const& o, lacuna::run_directory& out, std::FILE* progress,
                     lacuna::scene& damage) {
-    return visit_model(o.open, o.dry, [&]<class Model>(std::type_identity<Model>) {
+    return visit_model(o.choices, o.dry, [&]<class Model>(std::type_identity<Model>) {
         return follow<Model>(s, o, out, progress, damage);
     });
 }

@@ -12,11 +12,11 @@
 
 namespace cartilage {
 
-/// Loads the specimen and follows it to the end, with progress on `progress` (null: silent) and pictures on the way
-/// into `out`, as the command line asks, where cracks.csv grows. `damage` receives the scene at the end, which is after the
-/// present step once a signal has come.
-/// \throws std::invalid_argument before the first step when the model cannot be built
-/// \throws lacuna::unstable_run
+/// Loads the specimen and runs it to its end. During the run cracks.csv grows in `out`, with the requested pictures
+/// beside it. A signal ends the run after the present step.
+/// \param progress output of the progress; null: none \param damage receives the scene at the end
+/// \throws std::invalid_argument before the first step, if the model cannot be built
+/// \throws lacuna::unstable_run if the run becomes unstable
 run_result simulate(specimen const& s, options const& o, lacuna::run_directory& out, std::FILE* progress,
                     lacuna::scene& damage);
 

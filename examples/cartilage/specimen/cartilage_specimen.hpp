@@ -16,9 +16,9 @@ namespace lacuna {
 
 namespace detail {
 
-/// Brings a bed of scattered discs to the dense state: discs leave where it is too tight and come where there are
-/// holes, then radii breathe within their range: first at constant covered area, which lets squeezed places trade
-/// with loose ones, then until all rest against each other with small overlaps.
+/// Brings a bed of scattered discs to the dense state. Squeezed discs are removed and holes are filled. Then the radii
+/// change within their range: first at constant covered area, so that squeezed discs shrink and loose discs grow, then
+/// until all discs touch with small overlaps.
 inline void make_dense(disc_bed& bed, random_source& random, radius_range range, double area, double tolerance) {
     double const enough = 0.2 * tolerance * range.low, squeezed = 0.6, light = 1.2 * tolerance;
     disc_relaxer relaxer(bed);
@@ -39,7 +39,8 @@ inline void make_dense(disc_bed& bed, random_source& random, radius_range range,
         breathe(bed, relaxer, range, -1.0, 8, enough);
     }
     breathe(bed, relaxer, range, -1.0, 30, enough);
-    // What is still squeezed at the smallest radius has to go now: taken out by settle it would leave holes.
+    // Discs that are still squeezed at their smallest radius are removed now: removed by settle() they would leave
+    // holes.
     breathe(bed, relaxer, range, light, 15, 0.0, area);
     for (int round = 0; round < 6 && remove_squeezed(bed, relaxer.pressure(), 12 * light) > 0; ++round) {
         relaxer.reset();
@@ -48,15 +49,15 @@ inline void make_dense(disc_bed& bed, random_source& random, radius_range range,
     }
     relaxer.reset();
     for (int round = 0; round < 5; ++round) {
-        std::size_t const came = fill_holes(bed, random, range, 0.92, area);
-        if (round > 0 && came == 0) break;
+        std::size_t const added = fill_holes(bed, random, range, 0.92, area);
+        if (round > 0 && added == 0) break;
         relaxer.reset();
         breathe(bed, relaxer, range, light, round == 0 ? 20 : 10, 0.0, area);
         settle(bed, relaxer, range, tolerance);
     }
 }
 
-/// Fills what the rows and fibres of a specimen leave free.
+/// Fills the area that rows and fibres leave free with free particles.
 inline void fill_specimen(cartilage_specimen_parameters const& p, cartilage_specimen<double>& s,
                           random_source& random) {
     double const unit = p.diameter() / 2;
@@ -71,15 +72,15 @@ inline void fill_specimen(cartilage_specimen_parameters const& p, cartilage_spec
 
 } // namespace detail
 
-/// Builds a cartilage specimen (Hong, Evans and Mente, Fig. 9): straight horizontal fibres in the surface zone, a
-/// network of fibres in random directions in the middle zone, straight vertical fibres in the deep zone, or the three
-/// stacked; free particles fill the rest in the dense state.
+/// Builds a cartilage specimen (Hong, Evans and Mente, Fig. 9). The surface zone has straight horizontal fibres, the
+/// middle zone a network of fibres in random directions, the deep zone straight vertical fibres. The whole specimen
+/// stacks the three zones. Free particles fill the rest in the dense state.
 ///
-/// Fibres are rows of discs that touch to rounding. Surface fibres reach from side to side; the top row is the first
-/// of them. Deep fibres stand on the fixed bottom row, of which their first particle is part, and reach the top row
-/// (zone `whole`: the top of the deep zone). Middle fibres end where they meet others and go on beyond them as fibres
-/// of their own. In the zones without surface fibres the top row is a straight row of free particles.
-/// \throws std::invalid_argument on a bad parameter
+/// Fibres are rows of discs that touch to rounding. Surface fibres reach from side to side; the first one is the top
+/// row. Deep fibres stand on the fixed bottom row, which holds their first particle, and reach the top row (zone
+/// `whole`: the top of the deep zone). Middle fibres end where they meet others; beyond these they continue as new
+/// fibres. In zones without surface fibres the top row is a straight row of free particles.
+/// \throws std::invalid_argument for a bad parameter
 template <class Real = double>
 cartilage_specimen<Real> make_cartilage_specimen(cartilage_specimen_parameters const& p) {
     p.validate();

@@ -7,10 +7,10 @@
 
 namespace cartilage {
 
-/// Kinds of particles in a scene, by their numbers: those outside fibres, and those that make them.
+/// Indices of the kinds of particles in a scene: outside fibres, and in a fibre.
 enum particle_kind { free_particle, fibre_particle };
 
-/// As in the paper's Figure 9.
+/// Names and colours of the kinds, as in the paper's Figure 9.
 inline std::vector<lacuna::scene::particle_kind> particle_kinds() {
     return {{"free particle"}, {"bonded fibre particle", {0.83, 0.16, 0.15}, {0.86, 0.86, 0.87}}};
 }

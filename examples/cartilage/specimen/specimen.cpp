@@ -14,24 +14,24 @@ namespace cartilage {
 lacuna::cartilage_specimen_parameters specimen_parameters(options const& o) {
     lacuna::cartilage_specimen_parameters p;
     p.zone = o.zone;
-    p.preset = o.open.packing == packing_rule::lattice ? lacuna::specimen_preset::lattice
+    p.preset = o.choices.packing == packing_rule::lattice ? lacuna::specimen_preset::lattice
                                                      : lacuna::specimen_preset::literal;
     p.length = o.length_um / 1e6;
     p.height = o.height_um / 1e6;
     p.seed = o.seed;
-    if (o.open.radii == radius_rule::equal) p.r_min = p.r_max = p.diameter() / 2;
-    p.fibre_spacing = o.open.fibre_spacing;
-    p.fibre_layers = o.open.fibre_layers;
-    p.link_fibres = o.open.fibre_links > 0;
-    p.link_matrix = o.open.matrix_links > 0;
-    p.middle_fibre_length = o.open.middle_fibre_length * 1e-6;
-    p.deep_fraction = o.open.deep_fraction;
-    p.surface_fraction = o.open.surface_fraction;
-    p.middle_fraction = 1 - o.open.deep_fraction - o.open.surface_fraction;
-    p.fill = o.open.fill;
-    p.contact_tolerance = o.open.contact_tolerance;
-    p.thickness = o.open.thickness / 1e6;
-    p.wall_distance = o.open.wall_distance;
+    if (o.choices.radii == radius_rule::equal) p.r_min = p.r_max = p.diameter() / 2;
+    p.fibre_spacing = o.choices.fibre_spacing;
+    p.fibre_layers = o.choices.fibre_layers;
+    p.link_fibres = o.choices.fibre_links > 0;
+    p.link_matrix = o.choices.matrix_links > 0;
+    p.middle_fibre_length = o.choices.middle_fibre_length * 1e-6;
+    p.deep_fraction = o.choices.deep_fraction;
+    p.surface_fraction = o.choices.surface_fraction;
+    p.middle_fraction = 1 - o.choices.deep_fraction - o.choices.surface_fraction;
+    p.fill = o.choices.fill;
+    p.contact_tolerance = o.choices.contact_tolerance;
+    p.thickness = o.choices.thickness / 1e6;
+    p.wall_distance = o.choices.wall_distance;
     return p;
 }
 
@@ -39,11 +39,11 @@ void validate_specimen(options const& o) {
     try {
         specimen_parameters(o).validate();
     } catch (std::invalid_argument const& bad) {
-        std::string const what_m = std::string(bad.what()) + " m";
-        if (what_m.rfind("specimen.height", 0) == 0)
-            throw usage_error("--height " + lacuna::to_text(o.height_um) + ": " + what_m);
-        if (what_m.rfind("specimen.length", 0) == 0)
-            throw usage_error("--length " + lacuna::to_text(o.length_um) + ": " + what_m);
+        std::string const message = std::string(bad.what()) + " m";
+        if (message.rfind("specimen.height", 0) == 0)
+            throw usage_error("--height " + lacuna::to_text(o.height_um) + ": " + message);
+        if (message.rfind("specimen.length", 0) == 0)
+            throw usage_error("--length " + lacuna::to_text(o.length_um) + ": " + message);
         throw usage_error(bad.what());
     }
 }

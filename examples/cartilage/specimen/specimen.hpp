@@ -12,14 +12,14 @@ namespace cartilage {
 
 using specimen = lacuna::cartilage_specimen<double>;
 
-/// The specimen that the command line asks for, in SI units.
+/// Parameters of the requested specimen, in SI units.
 lacuna::cartilage_specimen_parameters specimen_parameters(options const& o);
-/// \throws usage_error when the specimen cannot be built, naming the option that is to blame
+/// Checks that the specimen can be built. \throws usage_error that names the bad option
 void validate_specimen(options const& o);
-/// Builds the specimen that the command line asks for. \throws std::invalid_argument
+/// Builds the requested specimen. \throws std::invalid_argument
 specimen build_specimen(options const& o);
 
-/// A specimen at a glance.
+/// Counts and statistics of a specimen.
 struct specimen_report {
     std::size_t particles = 0;
     std::size_t bonded_particles = 0;
@@ -29,14 +29,14 @@ struct specimen_report {
     std::size_t loaded = 0;
     double area_fraction = 0;
     double mean_radius = 0; ///< m
-    double max_overlap = 0; ///< over the smaller radius
+    double max_overlap = 0; ///< relative to the smaller radius
     double mean_coordination = 0;
     std::size_t loose = 0; ///< particles with fewer than two neighbours
 };
 
 specimen_report report_of(specimen const& s);
 
-/// The specimen as a picture's scene: particles, bonds, loads, support, walls and zones, with title and figures.
+/// The scene for a picture of the specimen: particles, bonds, loads, support, walls and zones, with title and counts.
 lacuna::scene scene_of(specimen const& s, options const& o);
 
 } // namespace cartilage

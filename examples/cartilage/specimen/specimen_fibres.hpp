@@ -13,15 +13,16 @@
 #include <lacuna/particles/packing_grid.hpp>
 
 /// \file
-/// The rows and fibres of the `literal` cartilage specimen, before free particles come in.
+/// The rows and fibres of the `literal` cartilage specimen. Free particles are added later.
 
 namespace lacuna::detail {
 
+/// Position and radius of a disc in a row whose position is given.
 struct pinned_disc {
     double x, r;
 };
 
-/// Lays the fibres of one specimen into it.
+/// Lays the fibres of one specimen.
 class fibre_architect {
 public:
     fibre_architect(cartilage_specimen_parameters const& p, cartilage_specimen<double>& s, random_source& random)
@@ -32,7 +33,7 @@ public:
         double const bottom = p_.r_max, top = p_.height - p_.r_max;
         std::vector<pinned_disc> feet, heads;
         if (whole || p_.zone == cartilage_zone::deep) {
-            for (double x : deep_places()) {
+            for (double x : deep_fibre_positions()) {
                 feet.push_back({x, draw()});
                 heads.push_back({x, draw()});
             }
@@ -53,7 +54,8 @@ public:
 private:
     double draw() { return radius_range{p_.r_min, p_.r_max}.draw(random_); }
 
-    /// A row of unbonded discs over the whole length, touching where the length between pinned discs allows it.
+    /// Lays a row of unbonded discs over the whole length. They touch where the length between pinned discs allows it.
+    /// \return the particles from left to right
     std::vector<std::int32_t> row(double y, std::vector<pinned_disc> const& pins) {
         std::vector<std::int32_t> ids;
         pinned_.clear();
@@ -107,9 +109,10 @@ private:
         }
     }
 
-    /// Where the deep fibres stand: one on the centre line, the others evenly beside it, with a whole number of
-    /// diameters between the outer ones and the sides, at the spacing nearest to the one asked for.
-    std::vector<double> deep_places() {
+    /// The x coordinates of the deep fibres, m. One fibre lies on the centre line, the others at equal spacing on both
+    /// sides. A whole number of diameters fits between the outer fibres and the sides of the specimen. Of all such
+    /// spacings the one nearest to fibre_spacing is taken.
+    std::vector<double> deep_fibre_positions() {
         double const d = p_.diameter(), half = p_.length / 2, wanted = p_.fibre_spacing * d;
         double best = -1, spacing = 0;
         int each = 0;
@@ -149,7 +152,7 @@ private:
         vec<double, 2> centre, along;
     };
 
-    /// How far a line keeps from what is there, on average; fibres further than a spacing do not count more.
+    /// Mean distance of a line from the particles laid so far, m. A distance above `reach` counts as `reach`.
     double distance_of(line const& l, disc_grid const& grid, double reach) const {
         double sum = 0;
         int samples = 0;
@@ -165,9 +168,9 @@ private:
         return sum / samples;
     }
 
-    /// A network of straight fibres at random places and directions between two heights. Its length per area is that
-    /// of parallel fibres at the spacing. A fibre that meets another ends there, touching it, and goes on beyond it
-    /// as a fibre of its own.
+    /// A network of straight fibres with random positions and directions between two heights. Its length per area is
+    /// that of parallel fibres at fibre_spacing. A fibre that meets another ends there and touches it; beyond it, it
+    /// continues as a new fibre.
     void middle(double bottom, double high) {
         double const spacing = p_.fibre_spacing * p_.diameter();
         double const low = p_.fibre_layers > 0 ? std::max(bottom, high - p_.fibre_layers * spacing) : bottom;
@@ -202,7 +205,7 @@ private:
 
     double lay_line(line const& l, disc_grid const& grid, double low, double high) {
         double const end = draw(), half = p_.middle_fibre_length / 2;
-        // The zone, shrunk to where the centre of an end disc may be; above and below, rows and boundaries count.
+        // The rectangle for the centres of end discs: away from the sides, the rows and the zone boundaries.
         vec<double, 2> const from{end, low + (low > p_.r_max ? end : 0.0)};
         vec<double, 2> const to{p_.length - end, high - end};
         double const ahead = std::min(half - end, length_inside(l.centre, l.along, from, to));
@@ -226,7 +229,8 @@ private:
         return laid;
     }
 
-    /// A fibre between two places of its end discs' centres along a line; returns its length.
+    /// Lays a fibre along a line, between two positions of its end discs' centres. \return its length, m; 0: none was
+    /// laid
     double lay_piece(line const& l, double from, double to, double end, disc_grid const& grid) {
         double const inner = to - from - 2 * end;
         if (inner < 0) return 0;
@@ -235,8 +239,9 @@ private:
         radius.insert(radius.end(), fit.radius.begin(), fit.radius.end());
         if (fit.rest == 0) radius.push_back(end);
 
-        // Inner discs may be larger than the end discs: one that would overlap a fibre it grazes ends the piece.
-        std::size_t begin = 0, length = 0, run = 0;
+        // Inner discs may be larger than the end discs. The fibre is the longest sequence of discs that overlap no
+        // other.
+        std::size_t begin = 0, length = 0, sequence = 0;
         std::vector<double> edge{from - end};
         for (std::size_t k = 0; k < radius.size(); ++k) {
             edge.push_back(edge[k] + 2 * radius[k]);
@@ -246,10 +251,10 @@ private:
                 double const gap = norm(s_.discs.position[j] - x) - radius[k] - s_.discs.radius[j];
                 clear = clear && gap > -1e-9 * p_.r_min;
             });
-            run = clear ? run + 1 : 0;
-            if (run > length) {
-                length = run;
-                begin = k + 1 - run;
+            sequence = clear ? sequence + 1 : 0;
+            if (sequence > length) {
+                length = sequence;
+                begin = k + 1 - sequence;
             }
         }
         if (int(length) < p_.minimum_fibre_particles) return 0;

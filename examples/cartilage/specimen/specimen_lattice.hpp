@@ -16,10 +16,10 @@
 
 namespace lacuna::detail {
 
-/// Lays one specimen. Surface and middle zone: a lattice with touching horizontal rows, alternately n and n - 1
-/// discs; surface fibres are rows, middle fibres run along its two slanting directions. Deep zone: a lattice with
-/// touching vertical columns, so that deep fibres are straight; its bottom (and top) row is the lowest (highest) disc
-/// of each column, alternately one radius apart.
+/// Lays one specimen. The surface and middle zones have a lattice of touching horizontal rows with n and n - 1 discs in
+/// turn. Surface fibres are rows; middle fibres follow the two slanting directions. The deep zone has a lattice of
+/// touching vertical columns, so that deep fibres are straight. Its bottom and top rows are the lowest and highest
+/// discs of the columns; their heights differ by one radius from column to column.
 class lattice_architect {
 public:
     lattice_architect(cartilage_specimen_parameters const& p, cartilage_specimen<double>& s)
@@ -59,7 +59,7 @@ private:
         s_.fibres.push_back(std::move(f));
     }
 
-    /// The deep zone up to `top`; returns the height at which a row of discs comes to rest on it.
+    /// Lays the deep zone up to the height `top`. \return the height of the centres of a row that rests on it, m
     double columns(double top) {
         double const apart = std::sqrt(3.0) * r_, centre = p_.length / 2;
         int const each = int((centre - r_) / apart);
@@ -92,12 +92,12 @@ private:
 
     int row_count() const { return int((p_.length + 1e-9 * r_) / (2 * r_)); }
 
-    /// The surface and middle zones, the first row of centres at height `base`.
+    /// Lays the surface and middle zones. \param base height of the first row's centres, m
     void rows(double base) {
         int const wide = row_count();
         double const apart = std::sqrt(3.0) * r_;
         int count = std::max(2, int((p_.height - r_ - base + 1e-9 * r_) / apart) + 1);
-        if (count % 2 == 0) --count; // full rows at both ends
+        if (count % 2 == 0) --count; // rows at bottom and top have n discs
         // site[row][h]: disc at x = centre + r (h - (wide - 1)), h even in even rows, odd in odd rows.
         std::vector<std::map<int, std::int32_t>> site(static_cast<std::size_t>(count));
         std::vector<double> y(static_cast<std::size_t>(count));
@@ -114,7 +114,7 @@ private:
         };
         if (p_.zone != cartilage_zone::whole) s_.fixed = ids(0);
         s_.top = ids(count - 1);
-        int above = count - 1; // the highest row that the middle zone's network may use
+        int above = count - 1; // the highest row for the network of the middle zone
         if (p_.zone != cartilage_zone::middle) {
             s_.surface_spacing = stride_ * apart;
             double const least = p_.zone == cartilage_zone::whole ? s_.middle_top : base + stride_ * apart / 2;
@@ -130,11 +130,12 @@ private:
                 p_.zone == cartilage_zone::whole ? above - stride_ / 2 : count - 2, wide);
     }
 
-    /// Fibres along the two slanting directions. Where two cross, the site belongs to the one that leans to the right
-    /// in the left half, to the other in the right half, to none on the centre line: that is symmetric.
+    /// Lays fibres along the two slanting directions. Where two cross in the left half, the fibre that leans to the
+    /// right takes the site; in the right half the other one does; on the centre line neither. So the network is
+    /// symmetric.
     void network(std::vector<std::map<int, std::int32_t>> const& site, std::vector<double> const& y, int low, int high,
                  int wide) {
-        int const period = 4 * stride_; // in half diameters along a row: two families share the length per area
+        int const period = 4 * stride_; // in radii along a row; two families share the length per area
         int const centre = wide - 1;
         auto const wraps = [&](int a) { return (a % period + period) % period == 0; };
         // Lines of the two families meet on the centre line in row `low`.
@@ -144,16 +145,16 @@ private:
         int const lowest = p_.fibre_layers > 0 ? std::max(low, high + 1 - p_.fibre_layers * stride_) : low;
         for (int lean : {1, -1})
             for (int start = -2 * int(y.size()); start <= 2 * wide + 2 * int(y.size()); ++start) {
-                std::vector<std::int32_t> run;
+                std::vector<std::int32_t> piece;
                 auto const flush = [&] {
-                    if (int(run.size()) >= p_.minimum_fibre_particles) {
+                    if (int(piece.size()) >= p_.minimum_fibre_particles) {
                         double mean = 0;
-                        for (auto i : run) mean += s_.discs.position[std::size_t(i)][1];
-                        mean /= double(run.size());
+                        for (auto i : piece) mean += s_.discs.position[std::size_t(i)][1];
+                        mean /= double(piece.size());
                         int const layer = std::clamp(int(5 * (top - mean) / std::max(top - bottom, r_)), 0, 4);
-                        finish(run, cartilage_zone::middle, layer, layer, middle_collagen);
+                        finish(piece, cartilage_zone::middle, layer, layer, middle_collagen);
                     }
-                    run.clear();
+                    piece.clear();
                 };
                 for (int j = lowest; j <= high; ++j) {
                     int const h = start + lean * (j - low);
@@ -163,7 +164,7 @@ private:
                     bool const shared = right(h, j) && left(h, j);
                     bool const owned = !shared || (lean > 0 ? h < centre : h > centre);
                     if (there && mine && owned)
-                        run.push_back(found->second);
+                        piece.push_back(found->second);
                     else
                         flush();
                 }

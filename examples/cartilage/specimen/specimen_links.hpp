@@ -13,9 +13,9 @@
 
 namespace lacuna {
 
-/// Adds bonds between particles that touch, behind those that are there: first between particles of different fibres,
-/// then between particles of a fibre and free ones; each group in the order of the particles' numbers.
-/// \param tolerance largest gap of a pair that touches, over its smaller radius
+/// Appends bonds between particles that touch: first between particles of different fibres, then between fibre
+/// particles and free particles. Each group is sorted by the particles' indices.
+/// \param tolerance largest gap of a touching pair, relative to its smaller radius
 /// \param fibres whether fibres are linked to each other
 /// \param matrix whether fibres are linked to free particles
 inline void link_fibres(cartilage_specimen<double>& s, double tolerance, bool fibres, bool matrix) {

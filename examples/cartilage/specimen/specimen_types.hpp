@@ -13,14 +13,14 @@
 
 namespace lacuna {
 
-/// How a specimen is built: `literal` as the paper says, radii and free particles at random; `lattice` with equal
-/// radii on hexagonal lattices, without any chance, symmetric left to right.
+/// How a specimen is built. `literal`: as the paper states, with random radii and random free particles. `lattice`:
+/// equal radii on hexagonal lattices, nothing random, symmetric left to right.
 enum class specimen_preset { literal, lattice };
 
 /// Index of a particle's material in a cartilage specimen (the columns of Table 1).
 enum cartilage_material : int { free_matrix = 0, surface_collagen = 1, middle_collagen = 2, deep_collagen = 3 };
 
-/// What a cartilage specimen is made of. Lengths in m; "diameters" are mean diameters, r_min + r_max.
+/// Parameters of a cartilage specimen. Lengths in m; "diameters" are mean diameters, r_min + r_max.
 struct cartilage_specimen_parameters {
     cartilage_zone zone = cartilage_zone::surface;
     specimen_preset preset = specimen_preset::literal;
@@ -28,9 +28,9 @@ struct cartilage_specimen_parameters {
     double height = 300e-6;           ///< vertical, m (Table 2)
     double r_min = 1.5e-6;            ///< smallest radius, m (Table 2); preset lattice uses the mean radius
     double r_max = 2e-6;              ///< largest radius, m (Table 2)
-    double fibre_spacing = 4;         ///< between neighbouring fibres, centre to centre, diameters; fitted (see result)
-    int fibre_layers = 0; ///< surface fibres from the top, deep fibres on each side counted from the centre one, depth of
-                          ///< the middle network in fibre spacings from its top; 0: as many as there is room for
+    double fibre_spacing = 4;         ///< between centres of neighbouring fibres, diameters; adjusted to the size
+    int fibre_layers = 0; ///< number of surface fibres; of deep fibres from the centre fibre to one side; depth of the
+                          ///< middle network in fibre spacings; 0: as many as fit
     bool link_fibres = false;         ///< bonds between fibres where they touch: see link_fibres()
     bool link_matrix = false;         ///< bonds between fibres and free particles where they touch
     double deep_fraction = 1.0 / 3;   ///< share of the height, from the bottom; zone `whole` only
@@ -38,17 +38,17 @@ struct cartilage_specimen_parameters {
     double surface_fraction = 1.0 / 3; ///< share of the height, on top; zone `whole` only
     double middle_fibre_length = 60e-6; ///< longest fibre of the middle zone's network, m
     int minimum_fibre_particles = 4;  ///< shorter pieces of the middle zone's network are left out
-    double fill = 0.9;                ///< free particles are added while the specimen's area fraction is below this;
-                                      ///< the jammed state ends it earlier, at about 0.85
+    double fill = 0.9;                ///< free particles are added up to this area fraction of the specimen, or until
+                                      ///< the packing is jammed, at about 0.85
     double contact_tolerance = 0.01;  ///< largest overlap of a pair, relative to its smaller radius
-    double thickness = 0;             ///< out of plane, m; 0 stands for one diameter
-    double loaded_margin = 7;         ///< unloaded part of the top row at each end, diameters
-    double wall_distance = 2;         ///< of the side walls from the specimen's sides, diameters
+    double thickness = 0;             ///< out of plane, m; 0: one diameter
+    double loaded_margin = 7;         ///< length of the unloaded top row at each end, diameters
+    double wall_distance = 2;         ///< from the specimen's sides to the side walls, diameters
     std::uint64_t seed = 1;           ///< preset literal only
 
     double diameter() const noexcept { return r_min + r_max; }
 
-    /// \throws std::invalid_argument that names the field, its value and the rule
+    /// Checks all parameters. \throws std::invalid_argument that names the field, its value and the rule
     void validate() const {
         require_positive("specimen.r_min", r_min);
         require_positive("specimen.r_max", r_max);
@@ -99,32 +99,32 @@ struct cartilage_specimen_parameters {
 /// One collagen fibre of a specimen.
 struct cartilage_fibre : fibre_chain {
     cartilage_zone zone = cartilage_zone::surface;
-    /// surface: 0 is the top fibre, counted downward; deep: 0 is the centre fibre, counted by distance from the centre
-    /// line; middle: the fifth of the zone's depth that holds the fibre's mean height, 0 is the top fifth.
+    /// Surface: counted downwards from the top fibre, 0. Deep: counted from the centre fibre, 0, to both sides. Middle:
+    /// the fifth of the zone's depth at the fibre's mean height; 0 is the top fifth.
     int layer = 0;
-    /// Signed order: deep: 0 is the centre fibre, negative to its left; others: as `layer`.
+    /// Deep: as `layer`, but negative to the left of the centre fibre. Other zones: as `layer`.
     int order = 0;
 };
 
 /// A specimen, ready to be loaded. Lengths in m, x to the right from the left side, y upward from the bottom.
 template <class Real>
 struct cartilage_specimen {
-    packing<Real, 2> discs;             ///< material: cartilage_material; bonds: those of fibres, links of fibres, of matrix
+    packing<Real, 2> discs;             ///< material: cartilage_material; bonds: fibres, fibre links, matrix links
     std::size_t fibre_links = 0;        ///< bonds between fibres
     std::size_t matrix_links = 0;       ///< bonds between fibres and free particles
-    std::vector<std::int32_t> fibre;    ///< per particle: number of its fibre, -1 for free particles
+    std::vector<std::int32_t> fibre;    ///< per particle: index of its fibre, -1 for free particles
     std::vector<cartilage_fibre> fibres;
     std::vector<std::int32_t> fixed;    ///< bottom row, left to right
     std::vector<std::int32_t> top;      ///< top row, left to right
-    std::vector<std::int32_t> loaded;   ///< the top row but for `loaded_margin` at each end
+    std::vector<std::int32_t> loaded;   ///< the top row except `loaded_margin` at each end
     Real left{}, right{};               ///< sides of the specimen
     Real wall_left{}, wall_right{};     ///< planes of the side walls
     Real length{}, height{}, thickness{};
-    Real deep_top{};                    ///< height up to which the deep zone reaches (0: no deep zone)
-    Real middle_top{};                  ///< height up to which the middle zone reaches (= deep_top: no middle zone)
-    Real surface_spacing{};             ///< of the surface fibres as laid: fitted to the height
-    Real deep_spacing{};                ///< of the deep fibres as laid: fitted to the length
-    packing_statistics statistics;      ///< contacts counted up to a gap of 2 contact_tolerance
+    Real deep_top{};                    ///< height of the top of the deep zone (0: no deep zone)
+    Real middle_top{};                  ///< height of the top of the middle zone (= deep_top: no middle zone)
+    Real surface_spacing{};             ///< of the surface fibres, adjusted to the height
+    Real deep_spacing{};                ///< of the deep fibres, adjusted to the length
+    packing_statistics statistics;      ///< pairs with gaps up to 2 contact_tolerance count as contacts
 };
 
 } // namespace lacuna

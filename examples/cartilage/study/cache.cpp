@@ -36,7 +36,7 @@ std::string key_of(options const& o) {
     key += "\nseed " + std::to_string(o.seed);
     key += "\nlength_um " + lacuna::to_text(o.length_um) + "\nheight_um " + lacuna::to_text(o.height_um);
     key += "\nstep_share " + lacuna::to_text(o.step_share);
-    return key + (o.dry ? "\ndry\n" : "\nwet\n") + text_of(o.open, true);
+    return key + (o.dry ? "\ndry\n" : "\nwet\n") + text_of(o.choices, true);
 }
 
 result_cache::result_cache(std::string const& directory) : directory_(directory) {
@@ -63,14 +63,14 @@ std::optional<json> result_cache::find(std::string const& name, std::string cons
     std::ifstream in(file(name, key), std::ios::binary);
     if (!in) return std::nullopt;
     std::string const text{std::istreambuf_iterator<char>(in), {}};
-    json kept = json::parse(text, nullptr, false);
-    if (!kept.is_object() || !kept.contains("key") || !kept.contains("checksum") || !kept.contains("result"))
+    json entry = json::parse(text, nullptr, false);
+    if (!entry.is_object() || !entry.contains("key") || !entry.contains("checksum") || !entry.contains("result"))
         return std::nullopt;
-    if (kept["key"] != key || kept["checksum"] != hexadecimal(kept["result"].dump())) return std::nullopt;
-    return std::move(kept["result"]);
+    if (entry["key"] != key || entry["checksum"] != hexadecimal(entry["result"].dump())) return std::nullopt;
+    return std::move(entry["result"]);
 }
 
-void result_cache::keep(std::string const& name, std::string const& key, json const& result) const {
+void result_cache::store(std::string const& name, std::string const& key, json const& result) const {
     if (directory_.empty()) return;
     std::string const text = result.dump();
     lacuna::whole_file out(file(name, key));

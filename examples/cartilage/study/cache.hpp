@@ -10,25 +10,25 @@
 
 namespace cartilage {
 
-/// Hash of all sources, the compiler and its flags: results of other code are other results.
+/// Hash of the sources, the compiler and its flags. Results of other code are not reused.
 std::string_view code_version();
 
-/// All that decides on a run but its load, as text: the model, the packing, the code.
+/// Everything except the load that determines a run, as text: model, packing and code.
 std::string key_of(options const& o);
 
-/// Results kept in a directory by what they are results of: small files that appear whole or not at all. Several
-/// threads and programs may use the same directory.
+/// Stores results in a directory by their key, in small files that appear complete or not at all. Several threads and
+/// programs may use the same directory.
 class result_cache {
 public:
-    /// \param directory created where needed; empty: nothing is kept and nothing found
-    /// \throws usage_error when it cannot be written
+    /// \param directory created if missing; empty: nothing is stored and nothing is found
+    /// \throws usage_error if it cannot be written
     explicit result_cache(std::string const& directory);
 
-    /// What was kept under this key; none as well for a file that is damaged.
+    /// The result stored under this key; none if there is none or its file is damaged.
     std::optional<json> find(std::string const& name, std::string const& key) const;
-    /// \param name for the eye, part of the file's name
-    /// \throws std::runtime_error when the file cannot be written
-    void keep(std::string const& name, std::string const& key, json const& result) const;
+    /// Stores a result. \param name part of the file's name, for readers of the directory
+    /// \throws std::runtime_error if the file cannot be written
+    void store(std::string const& name, std::string const& key, json const& result) const;
 
 private:
     std::string file(std::string const& name, std::string const& key) const;

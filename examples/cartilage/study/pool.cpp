@@ -23,7 +23,7 @@ namespace cartilage {
 
 namespace {
 
-constexpr long long usual_runs = 20; // of a packing, for the time left
+constexpr long long usual_runs = 20; // of a packing, to estimate the time left
 
 std::string name_of(options const& o) {
     return std::string(lacuna::to_string(o.zone)) + "-" + std::to_string(o.seed);
@@ -37,7 +37,7 @@ std::string key_of(packing_request const& r) {
     return key;
 }
 
-/// The runs of one packing: the ones kept, and those that wait to go on.
+/// The runs of one packing: from the cache, or stopped at a criterion and ready to continue.
 class packing_runs {
 public:
     packing_runs(options const& model, result_cache const& cache) : model_(model), cache_(cache) {}
@@ -46,16 +46,16 @@ public:
         std::string const name = name_of(model_) + "-" + lacuna::to_text(load_MPa) + "MPa-" + cartilage::name_of(c);
         std::string const key =
             cartilage::key_of(model_) + "load " + lacuna::to_text(load_MPa) + "\nuntil " + cartilage::name_of(c);
-        if (auto const kept = cache_.find(name, key)) {
+        if (auto const stored = cache_.find(name, key)) {
             try {
-                load_run found = load_run_from(*kept);
-                ++kept_;
+                load_run found = load_run_from(*stored);
+                ++from_cache_;
                 return found;
             } catch (std::exception const&) {
-                // Damaged: as if it were not there.
+                // A damaged entry counts as missing.
             }
         }
-        std::unique_ptr<resumable_run>& run = waiting_[load_MPa];
+        std::unique_ptr<resumable_run>& run = stopped_[load_MPa];
         if (!run) {
             if (!specimen_) specimen_ = build_specimen(model_);
             options o = model_;
@@ -65,24 +65,24 @@ public:
             ++runs_;
         }
         load_run found = run->run_until(c);
-        cache_.keep(name, key, json_of(found));
-        bool const told_all = meets(found, criterion::capacity) && meets(found, criterion::complete);
-        if (found.invalid || found.whole() || told_all) waiting_.erase(load_MPa);
+        cache_.store(name, key, json_of(found));
+        bool const all_met = meets(found, criterion::capacity) && meets(found, criterion::complete);
+        if (found.invalid || found.ran_to_end() || all_met) stopped_.erase(load_MPa);
         return found;
     }
 
     std::size_t runs() const { return runs_; }
-    std::size_t kept() const { return kept_; }
+    std::size_t from_cache() const { return from_cache_; }
 
 private:
     options const& model_;
     result_cache const& cache_;
     std::optional<specimen> specimen_;
-    std::map<double, std::unique_ptr<resumable_run>> waiting_;
-    std::size_t runs_ = 0, kept_ = 0;
+    std::map<double, std::unique_ptr<resumable_run>> stopped_;
+    std::size_t runs_ = 0, from_cache_ = 0;
 };
 
-/// "surface 31/80/-": medians of the three loads of what is done so far.
+/// "surface 31/80/-": medians of the three loads over the packings finished so far.
 std::string medians(std::vector<std::optional<packing_result>> const& done) {
     std::vector<packing_result> packings;
     for (auto const& r : done)
@@ -99,19 +99,19 @@ std::string medians(std::vector<std::optional<packing_result>> const& done) {
     return text;
 }
 
-/// The work of a pool, and what its threads share.
+/// The requests and the state that the threads share.
 class packing_pool {
 public:
     packing_pool(std::vector<packing_request> const& requests, pool_options const& how)
-        : requests_(requests), how_(how), cache_(how.cache), done_(requests.size()), open_(take_kept()),
+        : requests_(requests), how_(how), cache_(how.cache), done_(requests.size()), unfinished_(find_in_cache()),
           progress_(progress_of()) {}
 
     std::vector<packing_result> run() {
-        share_out(open_.size() + how_.further.size(), how_.jobs, [&](std::size_t k) {
-            if (k < open_.size())
-                search(open_[k]);
+        for_each_in_parallel(unfinished_.size() + how_.other_tasks.size(), how_.jobs, [&](std::size_t k) {
+            if (k < unfinished_.size())
+                search(unfinished_[k]);
             else
-                how_.further[k - open_.size()]();
+                how_.other_tasks[k - unfinished_.size()]();
         });
         progress_.finish(counted_, note());
         if (how_.report) *how_.report = report_;
@@ -122,41 +122,41 @@ public:
     }
 
 private:
-    /// Takes the packings that were kept. \return the numbers of those that are left to do
-    std::vector<std::size_t> take_kept() {
-        std::vector<std::size_t> open;
+    /// Takes finished packings from the cache. \return the indices of the other requests
+    std::vector<std::size_t> find_in_cache() {
+        std::vector<std::size_t> unfinished;
         for (std::size_t r = 0; r < requests_.size(); ++r) {
             try {
-                if (auto const kept = cache_.find(name_of(requests_[r].model), key_of(requests_[r])))
-                    done_[r] = packing_from(*kept);
+                if (auto const stored = cache_.find(name_of(requests_[r].model), key_of(requests_[r])))
+                    done_[r] = packing_from(*stored);
             } catch (std::exception const&) {
-                // Damaged: as if it were not there.
+                // A damaged entry counts as missing.
             }
             if (done_[r])
-                ++report_.packings_kept;
+                ++report_.packings_from_cache;
             else
-                open.push_back(r);
+                unfinished.push_back(r);
         }
-        return open;
+        return unfinished;
     }
 
     lacuna::progress_options progress_of() const {
-        lacuna::progress_options speak;
-        speak.sink = open_.empty() ? nullptr : how_.progress;
-        speak.terminal = lacuna::is_terminal(how_.progress);
-        speak.steps = std::max<long long>(1, usual_runs * static_cast<long long>(open_.size()));
-        speak.unit = nullptr;
-        return speak;
+        lacuna::progress_options settings;
+        settings.sink = unfinished_.empty() ? nullptr : how_.progress;
+        settings.terminal = lacuna::is_terminal(how_.progress);
+        settings.steps = std::max<long long>(1, usual_runs * static_cast<long long>(unfinished_.size()));
+        settings.unit = nullptr;
+        return settings;
     }
 
     std::string note() const {
         std::string text = "packings ";
-        text.append(std::to_string(finished_ + report_.packings_kept)).append(1, '/');
+        text.append(std::to_string(finished_ + report_.packings_from_cache)).append(1, '/');
         text.append(std::to_string(requests_.size())).append(", runs ").append(std::to_string(report_.runs));
         return text.append(2, ' ').append(medians(done_));
     }
 
-    /// Finds the loads of one packing; called by any thread.
+    /// Finds the loads of one packing. Any thread may call it.
     void search(std::size_t number) {
         packing_request const& request = requests_[number];
         packing_runs runs(request.model, cache_);
@@ -174,9 +174,9 @@ private:
         });
         result.zone = request.model.zone;
         result.seed = request.model.seed;
-        cache_.keep(name_of(request.model), key_of(request), json_of(result));
+        cache_.store(name_of(request.model), key_of(request), json_of(result));
         std::lock_guard const lock(guard_);
-        report_.runs_kept += runs.kept();
+        report_.runs_from_cache += runs.from_cache();
         done_[number] = std::move(result);
         ++finished_;
         counted_ += usual_runs - own;
@@ -188,11 +188,11 @@ private:
     result_cache cache_;
     pool_report report_;
     std::vector<std::optional<packing_result>> done_;
-    std::vector<std::size_t> open_; // numbers of the requests to do
+    std::vector<std::size_t> unfinished_; // indices of requests
     lacuna::progress_reporter<> progress_;
     std::mutex guard_;
     std::size_t finished_ = 0;
-    long long counted_ = 0; // runs, as the progress counts them
+    long long counted_ = 0; // finished runs, usual_runs for each finished packing
 };
 
 } // namespace

@@ -16,28 +16,28 @@ namespace cartilage {
 
 namespace {
 
-// In the logarithm of the load: how far from it a load may well be.
+// Half widths of the likelihood, in the logarithm of the load.
 constexpr double spread_of_guess = 0.4, spread_by_damage = 0.25;
-constexpr int most_unknown = 6; // runs that do not count, in a row
-constexpr int patience = 8;     // runs for one criterion
+constexpr int most_unknown = 6;        // invalid runs in a row before the search for a load ends
+constexpr int runs_before_halving = 8; // for one criterion
 
 enum class outcome { not_met, met, unknown };
 
-/// What is known of one load.
+/// The results at one load.
 struct known {
-    load_run last;                  ///< the furthest run
-    std::optional<load_run> counts; ///< the furthest that counts, where the furthest does not
+    load_run last;                 ///< the longest run
+    std::optional<load_run> valid; ///< if the longest run is invalid: the longest valid one
 
-    /// Whether a run for this criterion could tell no more.
-    bool settles(criterion c) const { return last.invalid || last.whole() || meets(last, c); }
+    /// Whether a further run cannot change the outcome for this criterion.
+    bool settles(criterion c) const { return last.invalid || last.ran_to_end() || meets(last, c); }
     outcome of(criterion c) const {
-        if (meets(last, c) || (counts && meets(*counts, c))) return outcome::met;
+        if (meets(last, c) || (valid && meets(*valid, c))) return outcome::met;
         return last.invalid ? outcome::unknown : outcome::not_met;
     }
 };
 
-/// Two places of the grid: at the lower one the criterion is not met, at the upper one it is. Beyond the range, where
-/// nothing was run: -1 and the number after the last place.
+/// Two indices of the grid: the criterion is not met at `low` and is met at `high`. -1 and the index after the last one
+/// stand for loads outside the range, without a run.
 struct bracket {
     int low, high;
     bool is_closed() const { return high - low <= 1; }
@@ -51,63 +51,65 @@ public:
         packing_result result;
         auto& found = result.found;
         int const first = find(criterion::first_crack, -1, found.first_crack_MPa, found.no_first_crack);
-        // Fibres that are all cut once, and a first layer that is torn in half, come in any order.
+        // Capacity and complete damage come in either order.
         find(criterion::capacity, first - 1, found.capacity_MPa, found.no_capacity);
         find(criterion::complete, first - 1, found.complete_MPa, found.no_complete);
-        for (auto& [place, what] : tried_) {
-            if (what.counts) result.runs.push_back(std::move(*what.counts));
+        for (auto& [index, what] : tried_) {
+            if (what.valid) result.runs.push_back(std::move(*what.valid));
             result.runs.push_back(std::move(what.last));
         }
         return result;
     }
 
 private:
-    outcome try_load(int place, criterion c) {
-        auto const [it, fresh] = tried_.try_emplace(place);
+    outcome try_load(int index, criterion c) {
+        auto const [it, is_new] = tried_.try_emplace(index);
         known& k = it->second;
-        if (!fresh && k.settles(c)) return k.of(c);
-        load_run now = run_at_(range_.load(place), c);
-        if (!fresh && now.invalid) k.counts = std::move(k.last);
+        if (!is_new && k.settles(c)) return k.of(c);
+        load_run now = run_at_(range_.load(index), c);
+        if (!is_new && now.invalid) k.valid = std::move(k.last);
         k.last = std::move(now);
         return k.of(c);
     }
 
-    /// What the runs so far say: the lowest place above `low` where the criterion is met, and the highest below that where
-    /// it is not.
+    /// The bracket from the runs so far: the lowest index above `low` where the criterion is met, and the highest index
+    /// below that where it is not met.
     bracket known_bracket(criterion c, int low) const {
         bracket b{low, top_ + 1};
-        for (auto const& [place, what] : tried_)
-            if (place > low && place < b.high && what.settles(c) && what.of(c) == outcome::met) b.high = place;
-        for (auto const& [place, what] : tried_)
-            if (place > low && place < b.high && what.settles(c) && what.of(c) == outcome::not_met) b.low = place;
+        for (auto const& [index, what] : tried_)
+            if (index > low && index < b.high && what.settles(c) && what.of(c) == outcome::met) b.high = index;
+        for (auto const& [index, what] : tried_)
+            if (index > low && index < b.high && what.settles(c) && what.of(c) == outcome::not_met) b.low = index;
         return b;
     }
 
-    /// \param low a place up to which the criterion is not met
-    /// \return the place found, or the last one where it is not met and one more
+    /// Finds the load of one criterion. \param low index up to which the criterion is not met
+    /// \param load receives the load, MPa, or \param none the reason why there is none
+    /// \return the index after the highest one where the criterion is not met
     int find(criterion c, int low, std::optional<double>& load, std::string& none) {
         bracket b = known_bracket(c, low);
         std::set<int> unknown;
         int tried = 0;
         for (int in_a_row = 0; !b.is_closed() && in_a_row < most_unknown; ++tried) {
-            // Away from runs that do not count, ever further, and below them every other time: less load is milder.
+            // Move away from invalid runs by growing distances, every other time below them: lower loads fail less
+            // often.
             int const away = 1 << std::max(in_a_row - 1, 0);
-            int place = -1;
-            if (in_a_row % 2 == 1) place = most_telling(c, {b.low, *unknown.begin()}, unknown, away);
-            // A guess that has not led there by now is a bad one: halving does not need it.
-            if (tried >= patience && !unknown.count((b.low + b.high) / 2)) place = (b.low + b.high) / 2;
-            if (place < 0) place = most_telling(c, b, unknown, away);
-            if (place < 0) place = most_telling(c, b, unknown, 1);
-            if (place < 0) break;
-            switch (try_load(place, c)) {
-            case outcome::met: b.high = place, in_a_row = 0; break;
-            case outcome::not_met: b.low = place, in_a_row = 0; break;
-            default: unknown.insert(place), ++in_a_row;
+            int index = -1;
+            if (in_a_row % 2 == 1) index = most_informative(c, {b.low, *unknown.begin()}, unknown, away);
+            // After so many runs the guess was bad. Halving does not depend on it.
+            if (tried >= runs_before_halving && !unknown.count((b.low + b.high) / 2)) index = (b.low + b.high) / 2;
+            if (index < 0) index = most_informative(c, b, unknown, away);
+            if (index < 0) index = most_informative(c, b, unknown, 1);
+            if (index < 0) break;
+            switch (try_load(index, c)) {
+            case outcome::met: b.high = index, in_a_row = 0; break;
+            case outcome::not_met: b.low = index, in_a_row = 0; break;
+            default: unknown.insert(index), ++in_a_row;
             }
         }
         if (!b.is_closed()) {
-            auto const end = [&](int place) {
-                return lacuna::to_text(range_.load(std::clamp(place, 0, top_))) + " MPa";
+            auto const end = [&](int index) {
+                return lacuna::to_text(range_.load(std::clamp(index, 0, top_))) + " MPa";
             };
             none = "runs from " + end(b.low) + " to " + end(b.high) + " do not count";
         } else if (b.high > top_)
@@ -119,65 +121,68 @@ private:
         return b.low + 1;
     }
 
-    /// How likely the load is that of each place, up to a factor: near the guess, and near where damage in proportion to
-    /// the load would be enough, to judge by the nearest run that does not meet the criterion. After the last place: above the range.
-    std::vector<double> beliefs(criterion c, bracket const& b) const {
+    /// The likelihood, up to a factor, that the load sought is that of each index. It is large near the guess, and near
+    /// the load at which damage in proportion to the load, as in the run at b.low, would meet the criterion. The last
+    /// element stands for loads above the range.
+    std::vector<double> likelihoods(criterion c, bracket const& b) const {
         double const guess = std::log(range_.first_guess[std::size_t(c)]);
         double const step = (logarithm(top_) - logarithm(0)) / top_;
         std::optional<double> by_damage;
         if (auto const no = tried_.find(b.low); no != tried_.end())
             if (double const share = share_of_damage(no->second.last, c); share > 0.05)
                 by_damage = logarithm(b.low) - std::log(share);
-        auto const hump = [](double x) { return 1 / (1 + x * x); };
-        std::vector<double> belief(std::size_t(top_) + 2);
-        for (int place = 0; place <= top_; ++place) {
-            double const at = logarithm(place);
-            belief[std::size_t(place)] = hump((at - guess) / spread_of_guess) *
-                                         (by_damage ? hump((at - *by_damage) / spread_by_damage) : 1.0);
+        auto const lorentzian = [](double x) { return 1 / (1 + x * x); };
+        std::vector<double> likelihood(std::size_t(top_) + 2);
+        for (int index = 0; index <= top_; ++index) {
+            double const log_load = logarithm(index);
+            likelihood[std::size_t(index)] = lorentzian((log_load - guess) / spread_of_guess) *
+                                         (by_damage ? lorentzian((log_load - *by_damage) / spread_by_damage) : 1.0);
         }
-        // The rest of the hump, as if all of it were as likely by damage as its beginning.
+        // The tail of the Lorentzian above the range. Its factor by damage is taken as constant.
         double const rest = std::numbers::pi / 2 - std::atan((logarithm(top_) - guess) / spread_of_guess);
-        belief.back() = rest * spread_of_guess / step *
-                        (by_damage ? hump((logarithm(top_) - *by_damage) / spread_by_damage) : 1.0);
-        return belief;
+        likelihood.back() = rest * spread_of_guess / step *
+                        (by_damage ? lorentzian((logarithm(top_) - *by_damage) / spread_by_damage) : 1.0);
+        return likelihood;
     }
-    double logarithm(int place) const {
+    double logarithm(int index) const {
         return std::lerp(std::log(range_.lowest_MPa), std::log(range_.highest_MPa),
-                         double(std::min(place, top_)) / top_);
+                         double(std::min(index, top_)) / top_);
     }
 
-    /// When a run would meet the criterion, s: in inverse proportion to the load, from the nearest above of those
-    /// that did, else the nearest below; before the first one from where no run did, which takes longest.
-    double time_to_meet(criterion c, bracket const& b, int place) const {
+    /// Estimate of the time at which a run would meet the criterion, s. It is inversely proportional to the load, from
+    /// the nearest higher load whose run met the criterion, else the nearest lower one. If no run met it, the longest
+    /// duration at b.low is taken.
+    double time_to_meet(criterion c, bracket const& b, int index) const {
         double time = range_.longest_run, at = logarithm(std::max(b.low, 0));
         for (auto const& [other, what] : tried_) {
             auto const t = time_met(what.last, c);
             if (!t || what.last.invalid) continue;
             time = *t, at = logarithm(other);
-            if (other >= place) break;
+            if (other >= index) break;
         }
-        return std::min(time * std::exp(at - logarithm(place)), range_.longest_run);
+        return std::min(time * std::exp(at - logarithm(index)), range_.longest_run);
     }
 
-    /// The place inside the bracket and the range whose run is to tell most (in the entropy of its outcome) for the time
-    /// it takes, of those at least so many places away from the unknown ones; -1: none.
-    int most_telling(criterion c, bracket const& b, std::set<int> const& unknown, int away) const {
-        std::vector<double> const belief = beliefs(c, b);
+    /// The index inside bracket and range with the largest entropy of its run's outcome, divided by the expected
+    /// duration of the run. Only indices at a distance of `away` or more from the unknown ones count. -1: there is
+    /// none.
+    int most_informative(criterion c, bracket const& b, std::set<int> const& unknown, int away) const {
+        std::vector<double> const likelihood = likelihoods(c, b);
         double all = 0, below = 0, most = -1;
-        for (int place = b.low + 1; place <= b.high; ++place) all += belief[std::size_t(place)];
+        for (int index = b.low + 1; index <= b.high; ++index) all += likelihood[std::size_t(index)];
         int best = -1;
-        for (int place = b.low + 1; place < b.high && place <= top_; ++place) {
-            below += belief[std::size_t(place)];
-            auto const next = unknown.lower_bound(place - away + 1);
-            if (next != unknown.end() && *next < place + away) continue;
+        for (int index = b.low + 1; index < b.high && index <= top_; ++index) {
+            below += likelihood[std::size_t(index)];
+            auto const next = unknown.lower_bound(index - away + 1);
+            if (next != unknown.end() && *next < index + away) continue;
             double const yes = below / all, no = 1 - yes;
-            auto const before = tried_.find(place);
+            auto const before = tried_.find(index);
             double const done = before == tried_.end() ? 0.0 : before->second.last.end_time;
-            double const least = range_.longest_run / 20; // and to begin a run costs, too
-            double const cost = yes * std::max(time_to_meet(c, b, place) - done, least) +
+            double const least = range_.longest_run / 20; // because the start of a run takes time
+            double const cost = yes * std::max(time_to_meet(c, b, index) - done, least) +
                                 no * std::max(range_.longest_run - done, least);
-            double const told = -(yes * std::log(yes) + no * std::log(no));
-            if (told > most * cost) most = told / cost, best = place;
+            double const entropy = -(yes * std::log(yes) + no * std::log(no));
+            if (entropy > most * cost) most = entropy / cost, best = index;
         }
         return best;
     }
@@ -198,16 +203,16 @@ int load_range::steps() const {
     return std::max(1, int(std::ceil(std::log(highest_MPa / lowest_MPa) / std::log1p(resolution) - 1e-9)));
 }
 
-double load_range::load(int place) const {
+double load_range::load(int index) const {
     int const n = steps();
-    if (place == 0) return lowest_MPa;
-    if (place == n) return highest_MPa;
-    // Four digits: the last bits of a power are not the same everywhere.
-    double const exact = lowest_MPa * std::pow(highest_MPa / lowest_MPa, double(place) / n);
+    if (index == 0) return lowest_MPa;
+    if (index == n) return highest_MPa;
+    // Rounded to four digits, because the last bits of a power differ between platforms.
+    double const exact = lowest_MPa * std::pow(highest_MPa / lowest_MPa, double(index) / n);
     return lacuna::number_of(lacuna::formatted("%.4g", exact)).value();
 }
 
-int load_range::place(double load_MPa) const {
+int load_range::nearest_index(double load_MPa) const {
     int const n = steps();
     double const share = std::log(load_MPa / lowest_MPa) / std::log(highest_MPa / lowest_MPa);
     return std::clamp(int(std::lround(share * n)), 0, n);

@@ -15,11 +15,11 @@ namespace cartilage {
 namespace {
 
 constexpr double layer_thickness = 10e-6; // m, about three particles
-constexpr double fine_interval = 0.05e-9; // s, while the first waves pass
-constexpr double fine_until = 2e-9;
-constexpr double coarse_ratio = 1.25; // of two times after that
+constexpr double fine_interval = 0.05e-9; // s, between profiles while the first waves pass
+constexpr double fine_until = 2e-9;       // s
+constexpr double coarse_ratio = 1.25;     // of the times of later profiles
 
-/// Means over layers of the specimen as it stood before the load.
+/// Means over horizontal layers of the unloaded specimen.
 class layer_means {
 public:
     explicit layer_means(specimen const& s)
@@ -42,21 +42,21 @@ public:
 private:
     int layer_at(double y) const { return std::clamp(int(std::floor((top_ - y) / thickness_)), 0, count_ - 1); }
 
-    /// The mean vertical stress of a body is the sum of force times branch over its volume; a branch that passes
-    /// through several layers counts in each with the part of it that is there.
+    /// Adds the mean vertical stress of each layer, Pa: the sum of force times branch vector over the layer's volume. A
+    /// branch that crosses several layers counts in each with its part inside.
     template <class Simulation, class Table>
     void add_stress(Simulation const& sim, Table const& pairs, std::vector<double>& stress) const {
         auto const& store = sim.particles();
         for (std::size_t slot = 0; slot < pairs.slots(); ++slot) {
             if (pairs.is_padding(slot, store.size())) continue;
-            auto const place = sim.pairs().find_force(pairs.i(slot), pairs.j(slot));
-            if (place < 0) continue;
-            double const force = double(sim.pairs().force_column()[place + 1]);
+            auto const offset = sim.pairs().find_force(pairs.i(slot), pairs.j(slot));
+            if (offset < 0) continue;
+            double const force = double(sim.pairs().force_column()[offset + 1]);
             double const from = double(store.position(std::size_t(pairs.i(slot)))[1]);
             double const to = double(store.position(std::size_t(pairs.j(slot)))[1]);
             double const low = std::min(from, to), high = std::max(from, to);
             for (int k = layer_at(high); k <= layer_at(low); ++k) {
-                // Above the first layer and below the last one there is nothing else to count in.
+                // The first layer extends above its top and the last one below its bottom.
                 double const ceiling = k == 0 ? high : top_ - k * thickness_;
                 double const floor = k == count_ - 1 ? low : top_ - (k + 1) * thickness_;
                 double const part = std::min(high, ceiling) - std::max(low, floor);
@@ -83,7 +83,8 @@ private:
     double thickness_, volume_;
 };
 
-/// Takes the profiles of a run: often while the first waves pass, then ever less often, and at the first break.
+/// Records profiles of a run: at short intervals while the first waves pass, then at growing intervals, and at the
+/// first break.
 class front_watch {
 public:
     static constexpr lacuna::stage stages = lacuna::stage::step | lacuna::stage::breakage;
@@ -118,9 +119,9 @@ private:
 
 template <class Model>
 void follow(specimen const& s, options const& o, snapshot& shot) {
-    options asked = o;
-    asked.pair_forces = true; // the stress front is made of them
-    auto const loaded = load_specimen<Model>(s, asked);
+    options with_forces = o;
+    with_forces.pair_forces = true; // for the stress profiles
+    auto const loaded = load_specimen<Model>(s, with_forces);
     lacuna::simulation<Model>& sim = *loaded;
     load_run_watch watch(s, o);
     front_watch fronts(s, shot.fronts);
@@ -147,7 +148,7 @@ snapshot take_snapshot(paper_picture const& picture, options o) {
     shot.zone = o.zone;
     shot.seed = o.seed;
     shot.figure = picture.figure;
-    visit_model(o.open, o.dry, [&]<class Model>(std::type_identity<Model>) { follow<Model>(s, o, shot); });
+    visit_model(o.choices, o.dry, [&]<class Model>(std::type_identity<Model>) { follow<Model>(s, o, shot); });
     return shot;
 }
 

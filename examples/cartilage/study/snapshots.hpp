@@ -9,17 +9,18 @@
 
 namespace cartilage {
 
-/// A picture of the paper: zone and load.
+/// Zone and load of a figure of the paper.
 struct paper_picture {
     std::string figure;
     lacuna::cartilage_zone zone;
     double load_MPa;
 };
-/// Figures 10 to 12.
+/// The paper's Figures 10 to 12.
 std::vector<paper_picture> const& paper_pictures();
 
-/// Follows the packing `o` under the load of a picture to the end, and keeps what the fronts of force and pressure did.
-/// \throws interruption, std::invalid_argument
+/// Runs a packing of the model `o` to the end at the zone and load of a picture. Records profiles of stress and pore
+/// pressure.
+/// \throws interruption if a signal asks to stop, std::invalid_argument if the model cannot be built
 snapshot take_snapshot(paper_picture const& picture, options o);
 
 } // namespace cartilage

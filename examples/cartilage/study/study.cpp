@@ -21,7 +21,7 @@ namespace cartilage {
 
 namespace {
 
-/// \throws usage_error
+/// Reads the study in a directory. \param what the option, for messages \throws usage_error
 study_result read_study(std::string const& directory, char const* what) {
     std::string const path = directory + "/" + study_file;
     std::string text;
@@ -37,7 +37,7 @@ study_result read_study(std::string const& directory, char const* what) {
     }
 }
 
-/// What two studies have to have in common to be parts of one; none: they have.
+/// The setting in which two studies differ, so that they are not parts of one study; none: they agree.
 std::optional<std::string> difference(study_result const& a, study_result const& b) {
     if (a.choices != b.choices) return "choices";
     if (a.lowest_MPa != b.lowest_MPa || a.highest_MPa != b.highest_MPa) return "range of loads";
@@ -48,7 +48,7 @@ std::optional<std::string> difference(study_result const& a, study_result const&
     return std::nullopt;
 }
 
-/// Near the loads of most packings of the preset `literal`, MPa.
+/// Guesses near the loads of most packings of the preset `literal`, MPa.
 std::array<double, 3> first_guess(lacuna::cartilage_zone zone) {
     switch (zone) {
     case lacuna::cartilage_zone::surface: return {25, 110, 200};
@@ -58,7 +58,7 @@ std::array<double, 3> first_guess(lacuna::cartilage_zone zone) {
     }
 }
 
-/// Whether an independent piece of work belongs to the part of the study that is asked for.
+/// Whether a packing or picture belongs to the requested shard.
 bool is_own(study_options const& o, std::size_t piece) { return int(piece % std::size_t(o.shards)) == o.shard - 1; }
 
 std::vector<paper_picture> pictures_of(study_options const& o) {
@@ -70,7 +70,7 @@ std::vector<paper_picture> pictures_of(study_options const& o) {
     return own;
 }
 
-/// \return whether it was kept from before
+/// Takes a snapshot from the cache, or runs it. \return whether it was in the cache
 bool find_snapshot(study_options const& o, result_cache const& cache, paper_picture const& picture, snapshot& shot) {
     options model = o.model;
     model.zone = picture.zone;
@@ -78,15 +78,15 @@ bool find_snapshot(study_options const& o, result_cache const& cache, paper_pict
     std::string const name = "figure-" + picture.figure;
     std::string const key = key_of(model) + "picture " + lacuna::to_text(picture.load_MPa);
     try {
-        if (auto const kept = cache.find(name, key)) {
-            shot = snapshot_from(*kept);
+        if (auto const stored = cache.find(name, key)) {
+            shot = snapshot_from(*stored);
             return true;
         }
     } catch (std::exception const&) {
-        // Damaged: as if it were not there.
+        // A damaged entry counts as missing.
     }
     shot = take_snapshot(picture, model);
-    cache.keep(name, key, json_of(shot));
+    cache.store(name, key, json_of(shot));
     return false;
 }
 
@@ -97,7 +97,7 @@ study_result study_frame(study_options const& o) {
     s.lowest_MPa = o.loads.lowest_MPa;
     s.highest_MPa = o.loads.highest_MPa;
     s.resolution = o.loads.resolution;
-    s.choices = text_of(o.model.open, true);
+    s.choices = text_of(o.model.choices, true);
     s.code = code_version();
     s.step_share = o.model.step_share;
     s.dry = o.model.dry;
@@ -139,12 +139,12 @@ study_result run_study(study_options const& o, pool_report& report) {
     auto const pictures = pictures_of(o);
     result_cache const cache(o.cache);
     result.snapshots.resize(pictures.size());
-    std::atomic<std::size_t> kept{0};
+    std::atomic<std::size_t> from_cache{0};
     for (std::size_t k = 0; k < pictures.size(); ++k)
-        how.further.emplace_back([&, k] { kept += find_snapshot(o, cache, pictures[k], result.snapshots[k]); });
+        how.other_tasks.emplace_back([&, k] { from_cache += find_snapshot(o, cache, pictures[k], result.snapshots[k]); });
     result.packings = run_packings(requests_of(o), how);
-    report.runs += pictures.size() - kept;
-    report.runs_kept += kept;
+    report.runs += pictures.size() - from_cache;
+    report.runs_from_cache += from_cache;
     return result;
 }
 
@@ -161,11 +161,11 @@ study_result merge_studies(std::vector<std::string> const& directories) {
         for (auto& r : parts[p].packings) whole.packings.push_back(std::move(r));
         for (auto& s : parts[p].snapshots) whole.snapshots.push_back(std::move(s));
     }
-    auto const place = [](packing_result const& r) { return std::pair(r.zone, r.seed); };
+    auto const order_of = [](packing_result const& r) { return std::pair(r.zone, r.seed); };
     std::stable_sort(whole.packings.begin(), whole.packings.end(),
-                     [&](auto const& a, auto const& b) { return place(a) < place(b); });
+                     [&](auto const& a, auto const& b) { return order_of(a) < order_of(b); });
     for (std::size_t k = 1; k < whole.packings.size(); ++k)
-        if (place(whole.packings[k]) == place(whole.packings[k - 1]))
+        if (order_of(whole.packings[k]) == order_of(whole.packings[k - 1]))
             throw usage_error("merge: zone " + std::string(lacuna::to_string(whole.packings[k].zone)) + ", seed " +
                               std::to_string(whole.packings[k].seed) + " is in two of the parts");
     std::stable_sort(whole.snapshots.begin(), whole.snapshots.end(),

@@ -13,21 +13,21 @@ namespace cartilage {
 /// Name of a study's file in its directory.
 inline constexpr char const* study_file = "study.json";
 
-/// The packings of a study, by zone, then seed; of a shard only its own.
+/// The packings of a study, or of its shard, by zone, then seed.
 std::vector<packing_request> requests_of(study_options const& o);
 
-/// A study with all but its packings and snapshots.
+/// A study without packings and snapshots: only its settings.
 study_result study_frame(study_options const& o);
 
-/// Results of another study are not replaced by accident; of the same one they come out the same anyway.
-/// \throws usage_error where the directory holds another study
+/// Protects the results of another study. Those of the same study may be replaced, because they come out the same.
+/// \throws usage_error if the directory holds another study
 void refuse_other_study(std::string const& directory, study_result const& wanted);
 
-/// Runs a study, or the part of it that is asked for. \param report what was run and what was kept from before
-/// \throws interruption, std::invalid_argument
+/// Runs a study or a shard of it. \param report receives the counts of runs and of results from the cache
+/// \throws interruption if a signal asks to stop, std::invalid_argument if a model cannot be built
 study_result run_study(study_options const& o, pool_report& report);
 
-/// The study whose parts are in these directories. \throws usage_error where they are not parts of one
+/// Joins the parts of a study in these directories. \throws usage_error if they are not parts of one study
 study_result merge_studies(std::vector<std::string> const& directories);
 
 } // namespace cartilage

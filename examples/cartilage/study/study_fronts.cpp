@@ -29,7 +29,7 @@ series arrivals(std::vector<front_profile> const& profiles, profile_values what)
     return found;
 }
 
-/// Depth over time by least squares; none where the layers do not come one after the other.
+/// Slope of depth over time by least squares, m/s; none if depth and time do not correlate.
 std::optional<double> speed_of(series const& front) {
     if (front.size() < 3) return std::nullopt;
     double t = 0, d = 0;
@@ -45,11 +45,11 @@ std::optional<double> speed_of(series const& front) {
     }
     double const least_correlation = 0.9;
     if (!(td > least_correlation * std::sqrt(tt * dd))) return std::nullopt;
-    // µm per ns are 1000 m/s.
+    // 1 µm/ns is 1000 m/s.
     return 1e3 * td / tt;
 }
 
-/// Strength of the fibres at a depth; the whole specimen has its zones from the top down, a third each.
+/// Strength of the fibres at a depth, Pa. In the whole specimen each zone is taken as a third of the height.
 double strength_at(lacuna::cartilage_zone zone, double depth_share) {
     using lacuna::cartilage_zone;
     if (zone == cartilage_zone::whole)
@@ -87,9 +87,9 @@ std::optional<first_break> first_break_of(snapshot const& s, double height_um) {
     auto const layer = std::min_element(nearest->depth.begin(), nearest->depth.end(), [&](double a, double c) {
         return std::fabs(a - b.depth) < std::fabs(c - b.depth);
     });
-    auto const place = std::size_t(layer - nearest->depth.begin());
-    b.pressure = std::fabs(nearest->pore_pressure.at(place));
-    b.stress = std::fabs(nearest->stress.at(place));
+    auto const index = std::size_t(layer - nearest->depth.begin());
+    b.pressure = std::fabs(nearest->pore_pressure.at(index));
+    b.stress = std::fabs(nearest->stress.at(index));
     b.strength = strength_at(s.zone, 1e6 * b.depth / height_um);
     return b;
 }

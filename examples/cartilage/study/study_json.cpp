@@ -9,7 +9,7 @@ template <class T>
 json json_of_optional(std::optional<T> const& value) {
     return value ? json(*value) : json(nullptr);
 }
-/// Points and the like: rows of numbers in one flat list.
+/// Rows of numbers as one flat list.
 template <class Rows, class Put>
 json flat(Rows const& rows, Put const& put) {
     json list = json::array();
@@ -67,7 +67,7 @@ json json_of(front_profile const& f) {
             {"pore_pressure", f.pore_pressure}};
 }
 
-/// The lines of an array, one element each.
+/// A JSON array with one element in each line.
 template <class Part>
 std::string lines_of(std::vector<Part> const& parts) {
     std::string text = "[";

@@ -8,14 +8,15 @@
 #include "cartilage/study/study_result.hpp"
 
 /// \file
-/// A study as JSON and back: the same values, bit for bit, and the same bytes for the same values.
+/// Writes studies as JSON and reads them. Values are read back bit for bit; equal values give equal bytes.
 
 namespace cartilage {
 
 using json = nlohmann::ordered_json;
 
-/// \name One part to JSON, and back. Reading throws nlohmann::json::exception or std::invalid_argument for anything
-/// that such a part does not look like.
+/// \name Parts of a study to JSON and back. Reading throws nlohmann::json::exception or std::invalid_argument if a
+/// value has
+/// the wrong type or range.
 /// \{
 json json_of(load_run const& p);
 json json_of(packing_result const& r);
@@ -25,9 +26,9 @@ packing_result packing_from(json const& j);
 snapshot snapshot_from(json const& j);
 /// \}
 
-/// The text of study.json: a line for each packing and snapshot.
+/// The text of study.json, with one line for each packing and snapshot.
 std::string text_of(study_result const& study);
-/// \throws std::runtime_error saying what is wrong with the text
+/// Reads the text of study.json. \throws std::runtime_error that names the error
 study_result study_from(std::string const& text);
 
 } // namespace cartilage

@@ -19,11 +19,11 @@ std::vector<lacuna::cartilage_zone> zones_of(std::string const& list) {
     }
     std::sort(zones.begin(), zones.end());
     if (std::adjacent_find(zones.begin(), zones.end()) != zones.end())
-        refuse("--zones", list, "without the same zone twice");
+        refuse("--zones", list, "a list without a zone twice");
     return zones;
 }
 
-void understand_shard(std::string const& word, study_options& o) {
+void read_shard(std::string const& word, study_options& o) {
     char const* const rule = "K/N with whole numbers 1 <= K <= N, at most 10000";
     auto const parts = parts_of(word, '/');
     if (parts.size() != 2) refuse("--shard", word, rule);
@@ -36,14 +36,14 @@ void understand_shard(std::string const& word, study_options& o) {
 void add_pool_options(CLI::App& app, pool_arguments& args) {
     app.add_option("--zones", args.zones, "some of surface,middle,deep,whole (all)")->type_name("LIST");
     app.add_option("--seeds", args.seeds, "packings of each zone, seeds 1 to N (20; with --quick 3)")->type_name("N");
-    app.add_flag("--quick", args.quick, "few packings, loads to 25 % only");
+    app.add_flag("--quick", args.quick, "few packings, and loads only to 25 %");
     app.add_option("--jobs", args.jobs, "runs at the same time; the results do not depend on it (all processors)")
         ->type_name("N");
-    app.add_option("--cache", args.cache, "directory of kept runs, which studies may share (cache in the results')")
+    app.add_option("--cache", args.cache, "directory of stored runs; studies may share it (DIR/cache)")
         ->type_name("DIR");
 }
 
-void understand_pool(pool_arguments const& args, study_options& o) {
+void read_pool_arguments(pool_arguments const& args, study_options& o) {
     o.zones = zones_of(args.zones);
     o.seeds = args.quick ? 3 : 20;
     if (!args.seeds.empty())
@@ -59,9 +59,9 @@ std::optional<study_options> parse_study_command_line(int argc, char const* cons
     model_arguments model;
     pool_arguments pool;
     std::string shard, out = "cartilage-study";
-    CLI::App app("The loads at which cartilage cracks, reaches its capacity and is damaged throughout, for many "
-                 "packings of each zone.\nResults go into a directory: study.json, table3.csv, report.html and its "
-                 "plots. A study that was stopped goes on where it was; one that is repeated costs nothing.",
+    CLI::App app("Finds the loads of first crack, capacity and complete damage for many packings of each zone.\n"
+                 "Results go into a directory: study.json, table3.csv, report.html and its plots. A study that was "
+                 "stopped continues where it was; a repeated study takes its results from the cache.",
                  "cartilage study");
     app.failure_message(CLI::FailureMessage::simple);
     app.get_formatter()->column_width(28);
@@ -69,23 +69,23 @@ std::optional<study_options> parse_study_command_line(int argc, char const* cons
     app.add_option("--shard", shard, "only every N-th packing, from the K-th on; see merge")->type_name("K/N");
     add_model_options(app, model);
     add_run_options(app, model);
-    app.add_flag("--no-snapshots", [&](std::int64_t) { o.pictures = false; }, "without the runs of Figures 10 to 12");
+    app.add_flag("--no-snapshots", [&](std::int64_t) { o.pictures = false; }, "leave out the runs of Figures 10 to 12");
     auto const add_output_options = [&](CLI::App& command) {
         command.add_option("--out", out, "directory for the results (cartilage-study)")->type_name("DIR");
-        command.add_flag("--force", o.force, "replace another study that is in DIR");
+        command.add_flag("--force", o.force, "replace another study in DIR");
         command.add_flag("--quiet", o.quiet, "no progress, no table");
     };
     add_output_options(app);
-    CLI::App& merge = *app.add_subcommand("merge", "Put the parts of a study together, and report on the whole");
+    CLI::App& merge = *app.add_subcommand("merge", "Join the parts of a study and write the report");
     merge.add_option("DIR", o.merge, "results of the parts")->required()->type_name("");
     add_output_options(merge);
     if (!parse_arguments(app, argc, argv)) return std::nullopt;
     o.out = out;
     if (merge.parsed()) return o;
-    o.model = understand_model(model);
+    o.model = model_options(model);
     o.model.what = command::run;
-    understand_pool(pool, o);
-    if (!shard.empty()) understand_shard(shard, o);
+    read_pool_arguments(pool, o);
+    if (!shard.empty()) read_shard(shard, o);
     for (auto zone : o.zones) {
         options one = o.model;
         one.zone = zone;

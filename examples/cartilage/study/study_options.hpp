@@ -15,27 +15,28 @@ class App;
 
 namespace cartilage {
 
-/// What is asked of `cartilage study` and `cartilage study merge`.
+/// The request to `cartilage study` or `cartilage study merge`.
 struct study_options {
-    options model;                              ///< zone, seed and load do not matter
+    options model;                              ///< its zone, seed and load are ignored
     std::vector<lacuna::cartilage_zone> zones;
     std::uint64_t seeds = 20;                   ///< packings 1 to seeds of each zone
     load_range loads;
     int jobs = 0;                               ///< 0: all processors
-    int shard = 1, shards = 1;                  ///< this part of so many
+    int shard = 1, shards = 1;                  ///< part `shard` of `shards`
     std::string out, cache;
     bool force = false, quiet = false, pictures = true;
-    std::vector<std::string> merge;             ///< directories to put together; empty: a study is to be run
+    std::vector<std::string> merge;             ///< directories of parts to join; empty: run a study
 };
 
-/// Options of how packings are run that all studies have in common, as written.
+/// Options that `study`, `sensitivity` and `calibrate` share, as text from the command line.
 struct pool_arguments {
     std::string zones = "surface,middle,deep,whole", seeds, jobs, cache;
     bool quick = false;
 };
+/// Adds these options.
 void add_pool_options(CLI::App& app, pool_arguments& args);
-/// Zones, seeds, loads, jobs and cache. \throws usage_error
-void understand_pool(pool_arguments const& args, study_options& o);
+/// Sets zones, seeds, loads, time step, jobs and cache. \throws usage_error
+void read_pool_arguments(pool_arguments const& args, study_options& o);
 
 /// Reads the command line after the word `study`. \copydetails parse_command_line
 std::optional<study_options> parse_study_command_line(int argc, char const* const* argv);

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Studies that were kept, read back. Nothing is taken on trust: what the report divides by, counts with or indexes has the
-// type, range and length that a study writes.
+// Reads stored studies. Every value is checked: the values by which the report divides, counts or indexes have the
+// type, range and length that text_of() writes.
 #include <initializer_list>
 #include <limits>
 #include <stdexcept>
 #include <utility>
 
 #include "cartilage/specimen/particle_kinds.hpp"
-#include "cartilage/study/kept_value.hpp"
+#include "cartilage/study/stored_value.hpp"
 
 namespace cartilage {
 
@@ -16,15 +16,15 @@ namespace {
 
 constexpr int many = std::numeric_limits<int>::max();
 
-std::optional<double> read_time(kept_value const& v) {
+std::optional<double> read_time(stored_value const& v) {
     if (v.is_null()) return std::nullopt;
     return v.not_negative();
 }
 
-/// JSON has no numbers that are none: a run that went unstable may have such an energy, written as null.
-double number_or_none(kept_value const& v) { return v.is_null() ? std::numeric_limits<double>::quiet_NaN() : v.number(); }
+/// A number that may be NaN. JSON has no NaN, so it is written as null; the energy of an unstable run may be NaN.
+double number_or_none(stored_value const& v) { return v.is_null() ? std::numeric_limits<double>::quiet_NaN() : v.number(); }
 
-std::string read_word(kept_value const& v, std::initializer_list<char const*> words) {
+std::string read_word(stored_value const& v, std::initializer_list<char const*> words) {
     std::string const found = v.text();
     std::string rule;
     for (char const* word : words) {
@@ -34,38 +34,38 @@ std::string read_word(kept_value const& v, std::initializer_list<char const*> wo
     v.refuse(rule);
 }
 
-lacuna::cartilage_zone read_zone(kept_value const& v) {
+lacuna::cartilage_zone read_zone(stored_value const& v) {
     return lacuna::parse_cartilage_zone(read_word(v, {"surface", "middle", "deep", "whole"}));
 }
 
-load_run::crack read_crack(kept_value const& c) {
+load_run::crack read_crack(stored_value const& c) {
     load_run::crack crack;
-    std::size_t place = 0;
-    c.each([&](kept_value const& v) {
-        switch (place++) {
+    std::size_t index = 0;
+    c.each([&](stored_value const& v) {
+        switch (index++) {
         case 0: crack.time = v.not_negative(); break;
         case 1: crack.x = v.number(); break;
         case 2: crack.y = v.number(); break;
         case 3: crack.shear = v.flag(); break;
-        case 4: crack.fibre = v.whole(-1, many); break;
+        case 4: crack.fibre = v.integer(-1, many); break;
         default: c.refuse("a list of time, x, y, shear, fibre");
         }
     });
-    if (place != 5) c.refuse("a list of time, x, y, shear, fibre");
+    if (index != 5) c.refuse("a list of time, x, y, shear, fibre");
     return crack;
 }
 
-load_run::layer_damage read_layer(kept_value const& l) {
+load_run::layer_damage read_layer(stored_value const& l) {
     load_run::layer_damage layer;
     layer.zone = read_word(l["zone"], {"surface", "middle", "deep"});
-    layer.layer = l["layer"].whole(0, many);
-    layer.bonds = l["bonds"].whole(0, many);
-    layer.broken = l["broken"].whole(0, layer.bonds);
+    layer.layer = l["layer"].integer(0, many);
+    layer.bonds = l["bonds"].integer(0, many);
+    layer.broken = l["broken"].integer(0, layer.bonds);
     layer.half_broken_time = read_time(l["half_broken_time"]);
     return layer;
 }
 
-std::vector<lacuna::scene::wall> read_segments(kept_value const& list) {
+std::vector<lacuna::scene::wall> read_segments(stored_value const& list) {
     std::vector<lacuna::scene::wall> walls;
     list.each_row(4, [&](auto const& v) {
         walls.push_back({{v(0).number(), v(1).number()}, {v(2).number(), v(3).number()}});
@@ -73,7 +73,7 @@ std::vector<lacuna::scene::wall> read_segments(kept_value const& list) {
     return walls;
 }
 
-lacuna::scene read_scene(kept_value const& j) {
+lacuna::scene read_scene(stored_value const& j) {
     using lacuna::scene;
     scene s;
     s.kinds = particle_kinds();
@@ -83,34 +83,34 @@ lacuna::scene read_scene(kept_value const& j) {
     s.title = j["title"].text();
     s.subtitle = j["subtitle"].text();
     s.load_label = j["load_label"].text();
-    j["captions"].each([&](kept_value const& c) { s.captions.push_back(c.text()); });
+    j["captions"].each([&](stored_value const& c) { s.captions.push_back(c.text()); });
     auto const at = [](auto const& v, std::size_t k) { return scene::point{v(k).number(), v(k + 1).number()}; };
     j["particles"].each_row(4, [&](auto const& v) {
-        s.particles.push_back({at(v, 0), v(2).positive(), v(3).whole(0, int(fibre_particle))});
+        s.particles.push_back({at(v, 0), v(2).positive(), v(3).integer(0, int(fibre_particle))});
     });
     j["bonds"].each_row(4, [&](auto const& v) { s.bonds.push_back({at(v, 0), at(v, 2)}); });
     j["cracks"].each_row(5, [&](auto const& v) {
         int const last = int(scene::break_mode::shear);
-        s.cracks.push_back({at(v, 0), at(v, 2), scene::break_mode(v(4).whole(0, last))});
+        s.cracks.push_back({at(v, 0), at(v, 2), scene::break_mode(v(4).integer(0, last))});
     });
     j["pores"].each_row(3, [&](auto const& v) { s.pores.push_back({at(v, 0), v(2).number()}); });
     j["loads"].each_row(4, [&](auto const& v) { s.loads.push_back({at(v, 0), at(v, 2)}); });
     s.supports = read_segments(j["supports"]);
     s.walls = read_segments(j["walls"]);
-    j["zones"].each([&](kept_value const& z) {
+    j["zones"].each([&](stored_value const& z) {
         s.zones.push_back({z["low"].number(), z["high"].number(), z["name"].text()});
     });
     return s;
 }
 
-/// All profiles of a run are of the same layers; in a dry run they have no pressures.
-std::vector<front_profile> read_fronts(kept_value const& list) {
+/// Reads the profiles of a run. All have the same layers; in a dry run they have no pressures.
+std::vector<front_profile> read_fronts(stored_value const& list) {
     std::vector<front_profile> fronts;
-    list.each([&](kept_value const& f) {
+    list.each([&](stored_value const& f) {
         front_profile front;
         front.time = f["time"].not_negative();
         if (!fronts.empty() && front.time < fronts.back().time) f["time"].refuse("not before that of the profile before it");
-        front.broken = f["broken"].whole(std::size_t(0), std::size_t(many));
+        front.broken = f["broken"].integer(std::size_t(0), std::size_t(many));
         front.depth = fronts.empty() ? f["depth"].numbers() : f["depth"].numbers(fronts.front().depth.size(), false);
         if (front.depth.empty()) f["depth"].refuse("the depth of at least one layer");
         front.stress = f["stress"].numbers(front.depth.size(), false);
@@ -122,7 +122,7 @@ std::vector<front_profile> read_fronts(kept_value const& list) {
     return fronts;
 }
 
-load_run read_load_run(kept_value const& j) {
+load_run read_load_run(stored_value const& j) {
     load_run p;
     p.load_MPa = j["load_MPa"].positive();
     p.end_time = j["end_time"].not_negative();
@@ -136,17 +136,17 @@ load_run read_load_run(kept_value const& j) {
     p.peak_pore_pressure = number_or_none(j["peak_pore_pressure"]);
     p.energy_residual_fraction = number_or_none(j["energy_residual_fraction"]);
     if (!j["invalid"].is_null()) p.invalid = j["invalid"].text();
-    j["cracks"].each([&](kept_value const& c) {
+    j["cracks"].each([&](stored_value const& c) {
         p.cracks.push_back(read_crack(c));
         if (p.cracks.size() > 1 && p.cracks.back().time < p.cracks[p.cracks.size() - 2].time)
             c.refuse("not before the crack before it");
     });
-    j["layers"].each([&](kept_value const& l) { p.layers.push_back(read_layer(l)); });
+    j["layers"].each([&](stored_value const& l) { p.layers.push_back(read_layer(l)); });
     return p;
 }
 
-/// A load that a search has found lies in its range, but for rounding.
-std::optional<double> read_load(kept_value const& v, double lowest, double highest) {
+/// A load that a search found. It has to lie within its range, except for rounding.
+std::optional<double> read_load(stored_value const& v, double lowest, double highest) {
     if (v.is_null()) return std::nullopt;
     double const load = v.positive();
     if (!(load >= lowest * (1 - 1e-9) && load <= highest * (1 + 1e-9)))
@@ -154,17 +154,17 @@ std::optional<double> read_load(kept_value const& v, double lowest, double highe
     return load;
 }
 
-packing_result read_packing(kept_value const& j, double lowest, double highest) {
+packing_result read_packing(stored_value const& j, double lowest, double highest) {
     packing_result r;
     r.zone = read_zone(j["zone"]);
-    r.seed = j["seed"].whole(std::uint64_t(0), std::numeric_limits<std::uint64_t>::max());
+    r.seed = j["seed"].integer(std::uint64_t(0), std::numeric_limits<std::uint64_t>::max());
     r.found.first_crack_MPa = read_load(j["first_crack_MPa"], lowest, highest);
     r.found.capacity_MPa = read_load(j["capacity_MPa"], lowest, highest);
     r.found.complete_MPa = read_load(j["complete_MPa"], lowest, highest);
     r.found.no_first_crack = j["no_first_crack"].text();
     r.found.no_capacity = j["no_capacity"].text();
     r.found.no_complete = j["no_complete"].text();
-    j["probes"].each([&](kept_value const& p) {
+    j["probes"].each([&](stored_value const& p) {
         r.runs.push_back(read_load_run(p));
         if (r.runs.size() > 1 && r.runs.back().load_MPa < r.runs[r.runs.size() - 2].load_MPa)
             p["load_MPa"].refuse("not below that of the run before it");
@@ -172,10 +172,10 @@ packing_result read_packing(kept_value const& j, double lowest, double highest) 
     return r;
 }
 
-snapshot read_snapshot(kept_value const& j) {
+snapshot read_snapshot(stored_value const& j) {
     snapshot s;
     s.zone = read_zone(j["zone"]);
-    s.seed = j["seed"].whole(std::uint64_t(0), std::numeric_limits<std::uint64_t>::max());
+    s.seed = j["seed"].integer(std::uint64_t(0), std::numeric_limits<std::uint64_t>::max());
     s.figure = j["figure"].text();
     s.run = read_load_run(j["run"]);
     s.fronts = read_fronts(j["fronts"]);
@@ -183,7 +183,7 @@ snapshot read_snapshot(kept_value const& j) {
     return s;
 }
 
-study_result read_study(kept_value const& j) {
+study_result read_study(stored_value const& j) {
     study_result study;
     study.lowest_MPa = j["lowest_MPa"].positive();
     study.highest_MPa = j["highest_MPa"].number();
@@ -195,23 +195,23 @@ study_result read_study(kept_value const& j) {
     study.dry = j["dry"].flag();
     study.length_um = j["length_um"].positive();
     study.height_um = j["height_um"].positive();
-    j["packings"].each([&](kept_value const& p) { study.packings.push_back(read_packing(p, study.lowest_MPa, study.highest_MPa)); });
-    j["snapshots"].each([&](kept_value const& s) { study.snapshots.push_back(read_snapshot(s)); });
+    j["packings"].each([&](stored_value const& p) { study.packings.push_back(read_packing(p, study.lowest_MPa, study.highest_MPa)); });
+    j["snapshots"].each([&](stored_value const& s) { study.snapshots.push_back(read_snapshot(s)); });
     return study;
 }
 
 } // namespace
 
-load_run load_run_from(json const& j) { return read_load_run(kept_value(j)); }
+load_run load_run_from(json const& j) { return read_load_run(stored_value(j)); }
 packing_result packing_from(json const& j) {
-    return read_packing(kept_value(j), 0, std::numeric_limits<double>::max());
+    return read_packing(stored_value(j), 0, std::numeric_limits<double>::max());
 }
-snapshot snapshot_from(json const& j) { return read_snapshot(kept_value(j)); }
+snapshot snapshot_from(json const& j) { return read_snapshot(stored_value(j)); }
 
 study_result study_from(std::string const& text) {
     try {
         json const j = json::parse(text);
-        return read_study(kept_value(j));
+        return read_study(stored_value(j));
     } catch (json::exception const& bad) {
         throw std::runtime_error(bad.what());
     } catch (std::invalid_argument const& bad) {

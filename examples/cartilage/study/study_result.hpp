@@ -15,7 +15,7 @@
 #include "cartilage/run/load_run.hpp"
 
 /// \file
-/// What a study found, as plain data: between the runs and the report. Loads in MPa, all else in SI units.
+/// Results of a study as plain data, from the runs to the report. Loads in MPa, all else in SI units.
 
 namespace cartilage {
 
@@ -23,12 +23,12 @@ enum class threshold { first_crack, capacity, complete };
 inline constexpr std::array<threshold, 3> all_thresholds{threshold::first_crack, threshold::capacity,
                                                          threshold::complete};
 
-/// The three loads of one packing; none: not within the range of loads.
+/// The three loads of one packing; none: not found within the range of loads.
 struct thresholds {
     std::optional<double> first_crack_MPa; ///< lowest load with a broken bond
     std::optional<double> capacity_MPa;    ///< lowest load at which the first layer has half of its bonds broken
     std::optional<double> complete_MPa;    ///< lowest load at which 90 % of the fibres are cut
-    /// Why a load is missing, by criterion; empty where there is one.
+    /// Why a load is missing, for each criterion; empty if there is a load.
     std::string no_first_crack, no_capacity, no_complete;
 
     std::optional<double> const& load(threshold what) const {
@@ -43,15 +43,15 @@ struct thresholds {
     }
 };
 
-/// All that is known of one packing.
+/// Loads and runs of one packing.
 struct packing_result {
     lacuna::cartilage_zone zone = lacuna::cartilage_zone::surface;
     std::uint64_t seed = 1;
     thresholds found;
-    std::vector<load_run> runs; ///< by load; at one load a run that counts before a longer one that does not
+    std::vector<load_run> runs; ///< by load; at one load a valid run comes before a longer invalid one
 };
 
-/// A load of one packing, MPa; infinite: above the range, minus infinity: below it; none: no run that counts decides.
+/// A load of one packing, MPa. Infinity: above the range; minus infinity: below it; none: no valid run decides.
 inline std::optional<double> load_of(packing_result const& r, threshold what) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     if (auto const& load = r.found.load(what)) return load;
@@ -61,29 +61,30 @@ inline std::optional<double> load_of(packing_result const& r, threshold what) {
     return std::nullopt;
 }
 
-/// What moves down through the specimen after the load has come, at one time: means over layers of equal thickness.
+/// Profiles of stress and pore pressure over the depth at one time: means over layers of equal thickness.
 struct front_profile {
     double time = 0;                   ///< s
     std::size_t broken = 0;            ///< bonds broken so far
-    std::vector<double> depth;         ///< m below the top: the middles of the layers
+    std::vector<double> depth;         ///< m below the top, of the middle of each layer
     std::vector<double> stress;        ///< Pa, vertical, of bonds and contacts, positive in tension
-    std::vector<double> pore_pressure; ///< Pa, mean over the pores' volume; empty in a dry run
+    std::vector<double> pore_pressure; ///< Pa, mean weighted by pore volume; empty in a dry run
 };
 
-/// A run followed to its end at a load of which the paper shows a picture.
+/// A run to its end at the zone and load of a figure of the paper.
 struct snapshot {
     lacuna::cartilage_zone zone = lacuna::cartilage_zone::surface;
     std::uint64_t seed = 1;
-    std::string figure; ///< of the paper, "10"
+    std::string figure; ///< number of the paper's figure, "10"
     load_run run;
     lacuna::scene damage;               ///< at the end
     std::vector<front_profile> fronts;  ///< in order of time
 };
 
+/// Settings and results of a study.
 struct study_result {
     double lowest_MPa = 5, highest_MPa = 1000, resolution = 0.02;
-    std::string choices; ///< the open choices that were used, as text "name = value", one a line
-    std::string code;    ///< version of the code that ran
+    std::string choices; ///< all open choices, one "name = value" a line
+    std::string code;    ///< version of the program, see code_version()
     double step_share = 0.4; ///< time step over its rigorous bound
     bool dry = false;       ///< without pore fluid
     double length_um = 120; ///< of the specimens, horizontal

@@ -24,7 +24,7 @@ int half_broken_layers(load_run const& p) {
                              [](load_run::layer_damage const& layer) { return layer.half_broken_time.has_value(); }));
 }
 
-/// Slope of y over x within groups, each about its own means.
+/// Common slope of y over x within groups; each group is taken relative to its own means.
 class slope_within_groups {
 public:
     void add(series const& group) {
@@ -58,7 +58,7 @@ std::vector<series> damage_series(std::vector<packing_result const*> const& pack
     for (packing_result const* packing : packings) {
         series line;
         for (load_run const& p : packing->runs)
-            if (p.whole() && !p.invalid) line.push_back({p.load_MPa, 100 * p.broken_fraction});
+            if (p.ran_to_end() && !p.invalid) line.push_back({p.load_MPa, 100 * p.broken_fraction});
         std::sort(line.begin(), line.end(), [](auto const& a, auto const& b) { return a[0] < b[0]; });
         if (!line.empty()) all.push_back(std::move(line));
     }
@@ -66,13 +66,13 @@ std::vector<series> damage_series(std::vector<packing_result const*> const& pack
 }
 
 series median_series(std::vector<series> const& all) {
-    std::vector<double> places;
+    std::vector<double> loads;
     for (series const& line : all)
-        for (auto const& p : line) places.push_back(p[0]);
-    std::sort(places.begin(), places.end());
-    places.erase(std::unique(places.begin(), places.end()), places.end());
+        for (auto const& p : line) loads.push_back(p[0]);
+    std::sort(loads.begin(), loads.end());
+    loads.erase(std::unique(loads.begin(), loads.end()), loads.end());
     series middle;
-    for (double const x : places) {
+    for (double const x : loads) {
         std::vector<double> values;
         for (series const& line : all)
             if (line.front()[0] <= x && x <= line.back()[0]) values.push_back(read_at(line, x));
@@ -109,7 +109,7 @@ first_crack_times first_crack_times_of(std::vector<packing_result const*> const&
     return found;
 }
 
-load_run const* telling_run(packing_result const& packing) {
+load_run const* representative_run(packing_result const& packing) {
     load_run const* most = nullptr;
     for (load_run const& p : packing.runs) {
         if (p.invalid || p.cracks.empty()) continue;

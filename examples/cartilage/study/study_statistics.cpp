@@ -23,14 +23,14 @@ std::vector<double> sorted(std::vector<double> numbers) {
 } // namespace
 
 double quantile_of_sorted(std::vector<double> const& sorted, double share) {
-    double const place = share * double(sorted.size() - 1);
-    auto const below = std::size_t(place);
-    double const beyond = place - double(below);
-    // Nothing of the next number: infinite or not, it has no say.
-    if (beyond == 0) return sorted[below];
+    double const position = share * double(sorted.size() - 1);
+    auto const below = std::size_t(position);
+    double const fraction = position - double(below);
+    // The next number has no weight, even if it is infinite.
+    if (fraction == 0) return sorted[below];
     if (!std::isfinite(sorted[below + 1])) return sorted[below + 1];
     if (!std::isfinite(sorted[below])) return sorted[below];
-    return sorted[below] + beyond * (sorted[below + 1] - sorted[below]);
+    return sorted[below] + fraction * (sorted[below + 1] - sorted[below]);
 }
 
 double quantile(std::vector<double> numbers, double share) {
@@ -47,7 +47,7 @@ interval median_interval(std::vector<double> numbers) {
     std::size_t const n = numbers.size();
     std::vector<double> medians(samples), sample(n);
     for (double& m : medians) {
-        // Scaling the upper 32 bits: the library's distributions differ between implementations.
+        // The distributions of the standard library differ between implementations, so the upper 32 bits are scaled.
         for (double& v : sample) v = numbers[std::size_t((random() >> 32) * std::uint64_t(n) >> 32)];
         std::sort(sample.begin(), sample.end());
         m = quantile_of_sorted(sample, 0.5);

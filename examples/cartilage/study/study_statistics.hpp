@@ -5,15 +5,15 @@
 #include <vector>
 
 /// \file
-/// Statistics of a few numbers, some of which may be known only to lie beyond a range: these are infinite.
+/// Statistics of a few numbers. Numbers that are only known to lie outside a range are infinite.
 
 namespace cartilage {
 
-/// The value below which `share` (0 to 1) of the numbers lie: between two of them linearly, the first at 0, the last at
-/// 1. Infinite where it falls on or beside an infinite number. \param sorted upwards, not empty
+/// The quantile for `share`, 0 to 1: the first number at 0, the last at 1, linear in between. It is infinite if one of
+/// the two numbers beside it is. \param sorted upwards, not empty
 double quantile_of_sorted(std::vector<double> const& sorted, double share);
 
-/// \name The same of numbers in any order. \throws std::invalid_argument without numbers
+/// \name Quantile and median of numbers in any order. \throws std::invalid_argument if there are none
 /// \{
 double quantile(std::vector<double> numbers, double share);
 double median(std::vector<double> numbers);
@@ -24,12 +24,13 @@ struct interval {
     double high = 0;
 };
 
-/// 95 % interval of the median: the middle 95 % of the medians of 10,000 samples drawn from the numbers with
-/// replacement, as many as there are numbers (percentile bootstrap; Efron and Tibshirani 1993, section 13.3). The draws
-/// come from a fixed seed: the same numbers have the same interval. \throws std::invalid_argument without numbers
+/// 95 % interval of the median by a percentile bootstrap (Efron and Tibshirani 1993, section 13.3): the middle 95 % of
+/// the medians of 10,000 samples. Each sample has as many numbers, drawn with replacement. The seed is fixed, so that
+/// the same numbers give the same interval. \throws std::invalid_argument if there are no numbers
 interval median_interval(std::vector<double> numbers);
 
-/// Share of the numbers below a value, in %; numbers equal to it count half. \throws std::invalid_argument without numbers
+/// Share of the numbers below a value, in %; numbers equal to it count half. \throws std::invalid_argument without
+/// numbers
 double percentile_of(double value, std::vector<double> const& numbers);
 
 } // namespace cartilage

@@ -20,14 +20,14 @@ bool reaches(load_run const& p, threshold what) {
     }
 }
 
-/// The load of a packing; beyond the range, infinite; none where no run that counts decides it.
+/// The load of a packing, MPa. Infinite: outside the range; none: no valid run decides it.
 std::optional<double> known_load(packing_result const& packing, threshold what, study_result const& study) {
     constexpr double beyond = std::numeric_limits<double>::infinity();
     if (auto const& load = packing.found.load(what)) return load;
     for (load_run const& p : packing.runs) {
         if (p.invalid) continue;
         bool const yes = reaches(p, what);
-        if (p.load_MPa >= study.highest_MPa * (1 - 1e-9) && p.whole() && !yes) return beyond;
+        if (p.load_MPa >= study.highest_MPa * (1 - 1e-9) && p.ran_to_end() && !yes) return beyond;
         if (p.load_MPa <= study.lowest_MPa * (1 + 1e-9) && yes) return -beyond;
     }
     return std::nullopt;

@@ -14,7 +14,7 @@ using namespace cartilage;
 
 namespace {
 
-/// A study of one packing and one snapshot, with short lists: every kind of value that study.json has.
+/// A study of one packing and one snapshot, with short lists and every kind of value in study.json.
 json small_study() {
     study_result study = synthetic_study(1);
     study.packings.resize(1);
@@ -28,8 +28,8 @@ json small_study() {
     return json::parse(text_of(study));
 }
 
-/// What the reader says; empty when it takes the study, which is then used as the report uses it.
-std::string said_of(json const& j) {
+/// The reader's error; empty if it accepts the study, which is then used as in the report.
+std::string error_of(json const& j) {
     try {
         study_result const study = study_from(j.dump());
         for (snapshot const& s : study.snapshots) arrivals_of(s);
@@ -40,10 +40,10 @@ std::string said_of(json const& j) {
     }
 }
 
-std::string said_with(std::string const& path, json const& value) {
+std::string error_with(std::string const& path, json const& value) {
     json j = small_study();
     j.at(json::json_pointer(path)) = value;
-    return said_of(j);
+    return error_of(j);
 }
 
 void pointers_of(json const& j, std::string const& path, std::vector<std::string>& out) {
@@ -56,17 +56,17 @@ void pointers_of(json const& j, std::string const& path, std::vector<std::string
 
 } // namespace
 
-TEST_CASE("a study that was kept is read back to the same text") {
+TEST_CASE("a stored study is read back to the same text") {
     json const j = small_study();
-    CHECK(said_of(j).empty());
+    CHECK(error_of(j).empty());
     CHECK(json::parse(text_of(study_from(j.dump()))) == j);
 }
 
-TEST_CASE("lists of a kept study that do not fit each other, numbers out of range and words that are none are refused by path") {
+TEST_CASE("a stored study with inconsistent lists, numbers out of range or unknown words is refused by path") {
     struct {
         char const* path;
         json value;
-        char const* said;
+        char const* error;
     } const cases[] = {
         {"/snapshots/0/fronts/1/depth", json::array(), "snapshots[0].fronts[1].depth = (a list or an object): must be a list of 15 numbers, not 0"},
         {"/snapshots/0/fronts/2/stress", {1.0, 2.0}, "snapshots[0].fronts[2].stress = (a list or an object): must be a list of 15 numbers, not 2"},
@@ -91,15 +91,15 @@ TEST_CASE("lists of a kept study that do not fit each other, numbers out of rang
     };
     for (auto const& c : cases) {
         INFO(c.path);
-        CHECK_THAT(said_with(c.path, c.value), contains_text(c.said));
+        CHECK_THAT(error_with(c.path, c.value), contains_text(c.error));
     }
     json without = small_study();
     without["packings"][0].erase("seed");
-    CHECK_THAT(said_of(without), contains_text("packings[0].seed = (missing): must be given"));
-    CHECK_THAT(said_of(json::array()), contains_text("the file = (a list or an object): must be an object"));
+    CHECK_THAT(error_of(without), contains_text("packings[0].seed = (missing): must be given"));
+    CHECK_THAT(error_of(json::array()), contains_text("the file = (a list or an object): must be an object"));
 }
 
-TEST_CASE("whatever stands in the place of one value of a kept study, it is refused or of use") {
+TEST_CASE("any value of a stored study may be replaced: the study is refused or can be reported") {
     json const whole = small_study();
     std::vector<std::string> paths;
     pointers_of(whole, "", paths);
@@ -109,10 +109,10 @@ TEST_CASE("whatever stands in the place of one value of a kept study, it is refu
         for (json const& other : others) {
             json j = whole;
             j.at(json::json_pointer(path)) = other;
-            std::string const said = said_of(j);
-            refused += !said.empty();
-            if (!said.empty()) REQUIRE_THAT(said, contains_text(": must be "));
+            std::string const error = error_of(j);
+            refused += !error.empty();
+            if (!error.empty()) REQUIRE_THAT(error, contains_text(": must be "));
         }
-    // Most values fit no other place; a text may be any text.
+    // Most values are wrong at another position; texts may be any text.
     CHECK(refused > int(7 * paths.size()));
 }

@@ -17,11 +17,11 @@
 
 namespace cartilage {
 
-/// A value of a file of results that somebody may have edited: read with its type and range, refused by its path. It refers
-/// to the value that it is part of, which has to stay.
-class kept_value {
+/// A value of a results file that may have been edited. Reading checks its type and range; an error names its path. It
+/// refers to the value that contains it, which has to outlive it.
+class stored_value {
 public:
-    explicit kept_value(json const& whole) : value_(&whole) {}
+    explicit stored_value(json const& whole) : value_(&whole) {}
 
     /// \throws std::invalid_argument "path = value: must be rule"
     [[noreturn]] void refuse(std::string const& rule) const {
@@ -30,25 +30,25 @@ public:
         lacuna::refuse(path(), text, rule);
     }
 
-    kept_value operator[](char const* key) const {
+    stored_value operator[](char const* key) const {
         if (!value_->is_object()) refuse("an object");
         auto const found = value_->find(key);
-        kept_value part(found == value_->end() ? nullptr : &*found, this, key, 0);
+        stored_value part(found == value_->end() ? nullptr : &*found, this, key, 0);
         if (part.value_ == nullptr) part.refuse("given");
         return part;
     }
-    /// Calls take(part) for each part of a list.
+    /// Calls take(element) for each element of a list.
     template <class Take>
     void each(Take const& take) const {
         if (!value_->is_array()) refuse("a list");
-        for (std::size_t k = 0; k < value_->size(); ++k) take(kept_value(&(*value_)[k], this, nullptr, k));
+        for (std::size_t k = 0; k < value_->size(); ++k) take(stored_value(&(*value_)[k], this, nullptr, k));
     }
     /// Calls take(row) for each `width` numbers of a flat list.
     template <class Take>
     void each_row(std::size_t width, Take const& take) const {
         if (!value_->is_array() || value_->size() % width != 0) refuse("a list in rows of " + std::to_string(width));
-        for (std::size_t at = 0; at < value_->size(); at += width)
-            take([&](std::size_t k) { return kept_value(&(*value_)[at + k], this, nullptr, at + k); });
+        for (std::size_t first = 0; first < value_->size(); first += width)
+            take([&](std::size_t k) { return stored_value(&(*value_)[first + k], this, nullptr, first + k); });
     }
     bool is_null() const noexcept { return value_->is_null(); }
 
@@ -70,7 +70,7 @@ public:
     }
     double not_negative() const { return number(0, std::numeric_limits<double>::max()); }
     template <class Integer>
-    Integer whole(Integer low, Integer high) const {
+    Integer integer(Integer low, Integer high) const {
         bool const good = value_->is_number_unsigned()  ? std::in_range<Integer>(value_->get<std::uint64_t>())
                           : value_->is_number_integer() ? std::in_range<Integer>(value_->get<std::int64_t>())
                                                         : false;
@@ -89,10 +89,10 @@ public:
     }
     std::vector<double> numbers() const {
         std::vector<double> found;
-        each([&](kept_value const& v) { found.push_back(v.number()); });
+        each([&](stored_value const& v) { found.push_back(v.number()); });
         return found;
     }
-    /// As many numbers as there should be, or, where that is allowed, none.
+    /// A list of `count` numbers, or, if none_allowed is true, an empty list.
     std::vector<double> numbers(std::size_t count, bool none_allowed) const {
         auto found = numbers();
         if (found.size() != count && !(none_allowed && found.empty()))
@@ -101,20 +101,20 @@ public:
     }
 
 private:
-    kept_value(json const* value, kept_value const* of, char const* key, std::size_t place)
-        : value_(value), of_(of), key_(key), place_(place) {}
+    stored_value(json const* value, stored_value const* parent, char const* key, std::size_t index)
+        : value_(value), parent_(parent), key_(key), index_(index) {}
 
     std::string path() const {
-        if (of_ == nullptr) return "the file";
-        std::string const before = of_->of_ == nullptr ? "" : of_->path();
-        if (key_ == nullptr) return before + "[" + std::to_string(place_) + "]";
+        if (parent_ == nullptr) return "the file";
+        std::string const before = parent_->parent_ == nullptr ? "" : parent_->path();
+        if (key_ == nullptr) return before + "[" + std::to_string(index_) + "]";
         return before.empty() ? key_ : before + "." + key_;
     }
 
     json const* value_;
-    kept_value const* of_ = nullptr;
+    stored_value const* parent_ = nullptr;
     char const* key_ = nullptr;
-    std::size_t place_ = 0;
+    std::size_t index_ = 0;
 };
 
 } // namespace cartilage
