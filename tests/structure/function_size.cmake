@@ -24,8 +24,8 @@ endforeach()
 file(WRITE "${SCRATCH}/all.cpp" "${source}")
 set(flags -std=c++20 "-I${INCLUDE}")
 foreach(directory IN LISTS SYSTEM_DIRS)
-  # As a system folder of the user's, /usr/include would come before the compiler's own.
-  if(directory AND NOT directory STREQUAL "/usr/include")
+  # Not /usr/include, which would come before the own folders of the compiler; nor ours, whose warnings would be hidden.
+  if(directory AND NOT directory MATCHES "^(/usr/include|${INCLUDE})$")
     list(APPEND flags -isystem "${directory}")
   endif()
 endforeach()
