@@ -28,16 +28,6 @@ struct energy_watch {
     template <class Simulation>
     void on_end(Simulation const&) {}
 };
-/// Stops a run after step `last`.
-struct stop_after {
-    static constexpr lacuna::stage stages = lacuna::stage::step;
-    long long last;
-    template <class Simulation>
-    lacuna::run_control on_step(Simulation const& s) const {
-        return s.steps() >= last ? lacuna::run_control::stop : lacuna::run_control::go_on;
-    }
-};
-
 /// A file that is removed at the end of the test.
 struct scratch_file {
     explicit scratch_file(std::string name) : path("checkpoint_" + std::move(name) + ".bin") {}
@@ -189,7 +179,7 @@ void check_coupled(std::string const& name) {
     }
 }
 
-struct wet_implicit : specimens::wet {
+struct wet_implicitly : specimens::wet {
     using flow = lacuna::implicit_flow;
 };
 
@@ -201,7 +191,7 @@ TEST_CASE("a resumed coupled run has the bits of the uninterrupted run", "[check
 
 TEST_CASE("a resumed run with implicit flow has the same bits, though its factorisation is older than the checkpoint",
           "[checkpoint][cartilage]") {
-    check_coupled<wet_implicit>("implicit");
+    check_coupled<wet_implicitly>("implicit");
 }
 
 TEST_CASE("a damaged or foreign checkpoint is refused, and nothing changes", "[checkpoint]") {

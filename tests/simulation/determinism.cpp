@@ -9,10 +9,6 @@ using namespace setups;
 
 namespace {
 
-struct plane_in_single : lacuna::default_model<2, float> {};
-
-double noise(std::size_t k, int salt) { return std::sin(12.9898 * double(k) + 78.233 * salt); }
-
 /// A square sheet of 24 x 24 discs by default, of mixed radii, half of its pairs bonded. It is torn, sheared and thrown
 /// at a wall.
 template <class Real>

@@ -14,9 +14,6 @@ namespace {
 struct verlet : plane {
     using integrator = lacuna::velocity_verlet;
 };
-struct plane_combined : plane {
-    using damping = lacuna::combined_damping;
-};
 
 /// Error of the position of the oscillator x'' = 1 - x from rest after `time`, with steps of time / count.
 template <class Model>

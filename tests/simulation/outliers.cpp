@@ -14,11 +14,6 @@ using namespace setups;
 
 namespace {
 
-struct single_plane : lacuna::default_model<2, float> {};
-struct ring : plane {
-    using domain = lacuna::periodic_domain;
-};
-
 /// Touching discs of radius 0.5 in `side` rows and columns, without bonds.
 template <class Real>
 lacuna::packing<Real, 2> square(int side) {
@@ -35,7 +30,7 @@ std::size_t candidates(lacuna::packing<typename Model::real, Model::dim> const& 
 
 } // namespace
 
-TEMPLATE_TEST_CASE("a long bond does not widen the search for contacts", "[outliers]", plane, single_plane) {
+TEMPLATE_TEST_CASE("a long bond does not widen the search for contacts", "[outliers]", plane, plane_in_single) {
     using real = typename TestType::real;
     int const side = 30;
     auto particles = square<real>(side);
@@ -212,7 +207,7 @@ TEST_CASE("results do not depend on the range of the search", "[outliers][determ
 }
 
 TEMPLATE_TEST_CASE("a crowd with outliers has the same bits with threads and after a restart",
-                   "[outliers][determinism][checkpoint]", plane, single_plane, ring) {
+                   "[outliers][determinism][checkpoint]", plane, plane_in_single, ring) {
     auto one = crowd<TestType>(0.2), two = crowd<TestType>(0.2, 2), reversed = crowd<TestType>(0.2, 1, true);
     auto resumed = crowd<TestType>(0.2);
     std::string const file = "outliers" + std::to_string(sizeof(typename TestType::real)) + std::to_string(TestType::domain::periodic) + ".bin";

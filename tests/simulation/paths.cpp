@@ -20,7 +20,6 @@ namespace {
 
 constexpr int scenarios = 200, steps = 60;
 
-struct plane_in_single : lacuna::default_model<2, float> {};
 struct plane_by_brute_force : plane {
     template <class Real, int Dim>
     using search = lacuna::brute_force<Real, Dim>;

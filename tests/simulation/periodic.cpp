@@ -19,7 +19,7 @@ using namespace setups;
 
 namespace {
 
-struct ring : plane {
+struct damped_ring : plane {
     using domain = lacuna::periodic_domain;
     using damping = lacuna::local_damping; // off by default
 };
@@ -89,10 +89,10 @@ TEST_CASE("a closed chain oscillates with the frequencies of a ring", "[periodic
     int const count = 10;
     double const k = 100;
     for (int const n : {1, 3, 5}) {
-        auto p = undamped<ring>(k, 0, 0, unit_density(2));
+        auto p = undamped<damped_ring>(k, 0, 0, unit_density(2));
         p.domain.period = {double(count), 0};
         p.time_step = 0.01;
-        lacuna::simulation<ring> sim(closed_chain(count), p);
+        lacuna::simulation<damped_ring> sim(closed_chain(count), p);
         double const speed = 1e-3;
         for (std::size_t i = 0; i < sim.size(); ++i) sim.set_velocity(i, {speed * std::cos(2 * pi * n * double(i) / count), 0});
         double const omega = 2 * std::sqrt(k) * std::sin(pi * n / count);
@@ -128,11 +128,11 @@ TEST_CASE("an endless strip of lattice has the lattice's C11", "[periodic]") {
                 strip.bonds.push_back({at(r, c), at(r + 1, left)});
                 strip.bonds.push_back({at(r, c), at(r + 1, left + 1)});
             }
-        auto p = undamped<ring>(1, ks, 0, unit_density(2));
+        auto p = undamped<damped_ring>(1, ks, 0, unit_density(2));
         p.domain.period = {double(columns), 0};
         p.damping = {0.6};
         p.safety = 0.5;
-        lacuna::simulation<ring> sim(strip, p);
+        lacuna::simulation<damped_ring> sim(strip, p);
         double const force = 1e-7;
         for (int c = 0; c < columns; ++c) {
             sim.fix(std::size_t(c));
@@ -145,7 +145,7 @@ TEST_CASE("an endless strip of lattice has the lattice's C11", "[periodic]") {
     }
 }
 
-TEMPLATE_TEST_CASE("pairs across an end of the period behave as in an open domain", "[periodic]", ring, cell) {
+TEMPLATE_TEST_CASE("pairs across an end of the period behave as in an open domain", "[periodic]", damped_ring, cell) {
     // Three discs collide and drift through the end of the period, in the periodic domain and in an open one.
     constexpr int dim = TestType::dim;
     using open = std::conditional_t<dim == 2, plane, space>;
@@ -193,7 +193,7 @@ TEMPLATE_TEST_CASE("pairs across an end of the period behave as in an open domai
 }
 
 TEMPLATE_TEST_CASE("a periodic crowd conserves momentum and has the same bits with threads and after a restart",
-                   "[periodic][determinism]", ring, cell) {
+                   "[periodic][determinism]", damped_ring, cell) {
     auto one = crowd<TestType>(1), two = crowd<TestType>(2), reversed = crowd<TestType>(1, true);
     auto const before = momentum(one);
     long long broken = 0;
@@ -226,8 +226,8 @@ TEMPLATE_TEST_CASE("a periodic crowd conserves momentum and has the same bits wi
 }
 
 TEST_CASE("invalid periods are refused by name", "[periodic][refusal]") {
-    auto p = undamped<ring>(100, 0, 0, 1000);
-    auto const make = [&] { lacuna::simulation<ring>(closed_chain(4), p); };
+    auto p = undamped<damped_ring>(100, 0, 0, 1000);
+    auto const make = [&] { lacuna::simulation<damped_ring>(closed_chain(4), p); };
     CHECK_THROWS_WITH(make(), contains_text("domain.period = 0: must be > 0 along one axis at least"));
     p.domain.period = {-4, 0};
     CHECK_THROWS_WITH(make(), contains_text("domain.period = -4"));
@@ -241,9 +241,9 @@ TEST_CASE("a ring through the sides of a LAMMPS box", "[periodic]") {
     std::string const text = "ring\n\n3 atoms\n3 bonds\n-1 2 xlo xhi\n0 9 ylo yhi\n\nAtoms # sphere\n\n1 1 1 2000 -0.5 1 0 0 0 0\n"
                              "2 1 1 1000 0.5 1 0 0 0 0\n3 1 1 500 -1.5 1 0 1 0 0\n\nBonds\n\n1 1 1 2\n2 1 2 3\n3 1 3 1\n";
     auto const list = lacuna::parse_lammps_data<2>(text, "f", {true, false});
-    auto p = undamped<ring>(100, 70, 0, 1);
+    auto p = undamped<damped_ring>(100, 70, 0, 1);
     p.domain.period = list.packing.period;
-    lacuna::simulation<ring> sim(list.packing, p);
+    lacuna::simulation<damped_ring> sim(list.packing, p);
     // Each bond is 1 m long: nothing pulls; the file's densities make the masses.
     sim.run(3);
     for (std::size_t k = 0; k < 3; ++k) {
@@ -251,5 +251,5 @@ TEST_CASE("a ring through the sides of a LAMMPS box", "[periodic]") {
         REQUIRE_THAT(sim.mass(k), WithinRel(list.density[k] * pi / 4, 1e-15));
     }
     p.domain.period[0] = 4;
-    REQUIRE_THROWS_WITH(lacuna::simulation<ring>(list.packing, p), contains_text("domain.period = 4: must be that of the packing's box along this axis, 3"));
+    REQUIRE_THROWS_WITH(lacuna::simulation<damped_ring>(list.packing, p), contains_text("domain.period = 4: must be that of the packing's box along this axis, 3"));
 }

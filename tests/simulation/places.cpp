@@ -25,11 +25,8 @@ struct single : lacuna::default_model<Dim, float> {
 struct wet_single : lacuna::default_model<2, float> {
     using flow = lacuna::explicit_flow_with<lacuna::constant_aperture>;
 };
-struct wet : plane {
+struct wet_plane : plane {
     using flow = lacuna::explicit_flow_with<lacuna::constant_aperture>;
-};
-struct damped : plane {
-    using damping = lacuna::viscous_damping;
 };
 
 template <class Real, int Dim>
@@ -122,7 +119,7 @@ TEST_CASE("squeezed and loaded packings come to rest and stay there", "[places]"
     }
     play(plane{}, 0, 0, 3000);
     // So long that the last velocities are too small to change any position.
-    play(damped{}, 1.0, 0.5, 20000);
+    play(plane_viscous{}, 1.0, 0.5, 20000);
 }
 
 TEST_CASE("positions too far from the origin are refused", "[places]") {
@@ -211,7 +208,7 @@ TEST_CASE("two particles at the same position are reported before any other faul
     auto p = springs<plane>(1, 1);
     auto const dry = [&] { lacuna::simulation<plane> sim(flat, p); };
     CHECK_THAT(thrown_by(dry), contains_text(there));
-    CHECK_THAT(thrown_by([&] { (void)filled<wet>(flat, springs<wet>(1, 1)); }), contains_text(there));
+    CHECK_THAT(thrown_by([&] { (void)filled<wet_plane>(flat, springs<wet_plane>(1, 1)); }), contains_text(there));
     p.guards.overlap = false;
     CHECK_THAT(thrown_by(dry), contains_text(there));
     // So close that rounding determines the direction.

@@ -19,13 +19,13 @@ using namespace lacuna;
 namespace {
 
 template <int Dim, class Real>
-struct wet : default_model<Dim, Real> {
+struct wet_model : default_model<Dim, Real> {
     using flow = explicit_flow;
 };
 
 template <int Dim, class Real>
 struct body {
-    using model = wet<Dim, Real>;
+    using model = wet_model<Dim, Real>;
     packing<Real, Dim> discs{};
 
     void add(vec<double, Dim> const& x, double r = 0.5) { discs.add(convert<Real>(x), Real(r)); }
@@ -157,7 +157,7 @@ TEST_CASE("particles without pores are named by the caller's numbers", "[fluid][
 
 TEST_CASE("a run that moves all particles onto a line ends at the next mesh, and the message has their numbers",
           "[fluid][refusal]") {
-    using model = wet<2, double>;
+    using model = wet_model<2, double>;
     packing<double, 2> discs;
     for (int k = 2; k-- > 0;) discs.add({1.2 * k, 0}, 0.4);
     discs.add({0.6, 0.8}, 0.4);

@@ -42,16 +42,6 @@ std::string answer(lacuna::simulation<Model>& sim) {
     return "accepted";
 }
 
-/// Stops a run after step `last`; continued to the same end it is the same run.
-struct stop_after {
-    static constexpr lacuna::stage stages = lacuna::stage::step;
-    long long last;
-    template <class Simulation>
-    lacuna::run_control on_step(Simulation const& s) const {
-        return s.steps() >= last ? lacuna::run_control::stop : lacuna::run_control::go_on;
-    }
-};
-
 struct wet : lacuna::default_model<2> {
     using damping = lacuna::combined_damping;
     using flow = lacuna::explicit_flow;
@@ -65,9 +55,6 @@ struct wet_in_single : lacuna::default_model<2, float> {
 };
 struct space_in_single : lacuna::default_model<3, float> {
     using damping = lacuna::local_damping;
-};
-struct ring : lacuna::default_model<2> {
-    using domain = lacuna::periodic_domain;
 };
 
 /// Two rows, bonded along the lower.

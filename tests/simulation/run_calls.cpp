@@ -21,6 +21,7 @@
 /// Results do not depend on how a run is split into calls of run() and step().
 
 using namespace lacuna;
+using setups::noise;
 
 namespace {
 
@@ -36,8 +37,6 @@ struct block_explicit : default_model<3> {
 struct block_implicit : default_model<3> {
     using flow = implicit_flow_with<hydraulic_section>;
 };
-
-double noise(std::size_t k, int salt) { return std::sin(12.9898 * double(k) + 78.233 * salt); }
 
 /// A wet packing that is sheared by its own motion, so that pairs form and separate; its pores are drained on one side.
 /// \param duration duration in the flow's parameters, s

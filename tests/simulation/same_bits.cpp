@@ -38,17 +38,17 @@ struct journal {
     }
 };
 
-struct outcome {
+struct end_state {
     std::uint64_t state;
     std::string written;
     std::vector<lacuna::vec<double, 2>> position, velocity;
 };
 
-outcome play(lacuna::cartilage_specimen<double> const& s, int threads, bool keep_pair_forces = true) {
+end_state play(lacuna::cartilage_specimen<double> const& s, int threads, bool keep_pair_forces = true) {
     auto run = specimens::make(s, threads, 1000, keep_pair_forces);
     journal text;
     run.run(1000, text);
-    outcome o{lacuna::state_hash(run), text.text, {}, {}};
+    end_state o{lacuna::state_hash(run), text.text, {}, {}};
     for (std::size_t k = 0; k < run.size(); ++k) {
         o.position.push_back(run.position(k));
         o.velocity.push_back(run.velocity(k));

@@ -26,6 +26,13 @@ struct plane_locally_damped : plane {
 struct plane_viscous : plane {
     using damping = lacuna::viscous_damping;
 };
+struct plane_combined : plane {
+    using damping = lacuna::combined_damping;
+};
+using plane_in_single = lacuna::default_model<2, float>;
+struct ring : plane {
+    using domain = lacuna::periodic_domain;
+};
 
 /// The same springs for bonds and contacts.
 template <class Model>
@@ -71,6 +78,9 @@ inline lacuna::packing<double, 2> lattice(int columns, int rows, bool triangular
     return p;
 }
 
+/// A number of [-1, 1] for the k-th of some things, another one for another salt.
+inline double noise(std::size_t k, int salt) { return std::sin(12.9898 * double(k) + 78.233 * salt); }
+
 /// Force of the pair (a, b), by stable ids, on a, at the last step: {F_x, F_y[, F_z]}.
 template <class Model>
 lacuna::vec<double, Model::dim> pair_force(lacuna::simulation<Model> const& s, int a, int b) {
@@ -100,6 +110,16 @@ std::string thrown_by(Play const& play) {
     }
     return "";
 }
+
+/// Stops a run after step `last`: one that goes on to the same end later is the same run.
+struct stop_after {
+    static constexpr lacuna::stage stages = lacuna::stage::step;
+    long long last;
+    template <class Simulation>
+    lacuna::run_control on_step(Simulation const& s) const {
+        return s.steps() >= last ? lacuna::run_control::stop : lacuna::run_control::go_on;
+    }
+};
 
 /// Orbital and spin angular momentum about the origin.
 template <class Model>

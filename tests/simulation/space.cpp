@@ -7,7 +7,7 @@ using namespace setups;
 
 namespace {
 
-lacuna::simulation_parameters<space> unit_springs(double tensile = never, double shear = never, double friction = 0) {
+lacuna::simulation_parameters<space> unit_springs_in_space(double tensile = never, double shear = never, double friction = 0) {
     // The bond's area is pi R^2: strengths are divided by it, so that they are limits in N.
     double const area = pi * 0.25;
     auto p = springs<space>(1, 1, friction, unit_density(3), tensile / area, shear / area);
@@ -30,7 +30,7 @@ TEST_CASE("mass and moment of inertia of a sphere", "[3d]") {
 TEST_CASE("two spheres collide head-on in any direction", "[3d][collision]") {
     // m_eff = 1/2 kg, k = 1 N/m: half a period pi / sqrt(2), deepest v / sqrt(2).
     for (lacuna::vec<double, 3> const& n : {lacuna::vec<double, 3>{1, 0, 0}, lacuna::vec<double, 3>{0.36, -0.48, 0.8}}) {
-        auto p = unit_springs(never, never, 0.5);
+        auto p = unit_springs_in_space(never, never, 0.5);
         lacuna::packing<double, 3> two;
         two.add({1, 2, 3}, 0.5);
         two.add(lacuna::vec<double, 3>{1, 2, 3} + n, 0.5);
@@ -57,7 +57,7 @@ TEST_CASE("two spheres that slide through a collision", "[3d][collision][frictio
     // slip; each sphere gains the spin R J_t / I, about the axis n x t.
     double const mu = 0.1, vn = 1e-4, vt = 1e-3;
     lacuna::vec<double, 3> const n{0.36, -0.48, 0.8}, t{0.8, 0.6, 0};
-    auto p = unit_springs(never, never, mu);
+    auto p = unit_springs_in_space(never, never, mu);
     lacuna::packing<double, 3> two;
     two.add({0, 0, 0}, 0.5);
     two.add(n, 0.5);
@@ -80,7 +80,7 @@ TEST_CASE("a pair of spheres pulled and sheared to failure", "[3d][fracture]") {
     double const limit = 1e-5;
     lacuna::vec<double, 3> const n{0.36, -0.48, 0.8}, t{0.8, 0.6, 0};
     for (bool const pulled : {true, false}) {
-        auto p = unit_springs(pulled ? limit : never, pulled ? never : limit);
+        auto p = unit_springs_in_space(pulled ? limit : never, pulled ? never : limit);
         lacuna::packing<double, 3> two;
         two.add({0, 0, 0}, 0.5);
         two.add(n, 0.5);
@@ -105,7 +105,7 @@ TEST_CASE("a pair of spheres pulled and sheared to failure", "[3d][fracture]") {
 
 TEST_CASE("a shear force in 3D follows the slip, and rotates the spheres", "[3d]") {
     lacuna::packing<double, 3> two = chain<3>(2);
-    lacuna::simulation<space> run(two, unit_springs());
+    lacuna::simulation<space> run(two, unit_springs_in_space());
     run.fix(0);
     run.fix(1);
     run.set_velocity(1, {0, 1e-6, 2e-6});
@@ -113,7 +113,7 @@ TEST_CASE("a shear force in 3D follows the slip, and rotates the spheres", "[3d]
     auto const force = pair_force(run, 0, 1); // on the first: dragged along, k_s u
     REQUIRE_THAT(force[1], WithinRel(1e-6, 1e-5));
     REQUIRE_THAT(force[2], WithinRel(2e-6, 1e-5));
-    lacuna::simulation<space> loose(two, unit_springs());
+    lacuna::simulation<space> loose(two, unit_springs_in_space());
     loose.fix(1);
     loose.set_velocity(1, {0, 0, 1e-6});
     for (int n = 0; n < 100; ++n) loose.step();
@@ -128,7 +128,7 @@ TEST_CASE("a shear force in 3D follows the slip, and rotates the spheres", "[3d]
 TEST_CASE("the quaternion of a free sphere follows its rotation", "[3d]") {
     lacuna::packing<double, 3> one;
     one.add({0, 0, 0}, 0.5);
-    auto p = unit_springs();
+    auto p = unit_springs_in_space();
     lacuna::simulation<space> run(one, p);
     lacuna::vec<double, 3> const axis{0.36, 0.48, 0.8};
     run.set_spin(0, axis * 2.0);
@@ -141,7 +141,7 @@ TEST_CASE("the quaternion of a free sphere follows its rotation", "[3d]") {
 
 TEST_CASE("the work of loads and of prescribed rotation in 3D is in the ledger", "[3d][energy]") {
     // The first sphere rotates at a given rate against the fixed second one: elastic work 1/2 k_s (R angle)^2.
-    lacuna::simulation<space> run(chain<3>(2), unit_springs());
+    lacuna::simulation<space> run(chain<3>(2), unit_springs_in_space());
     run.fix(0);
     run.fix(1);
     run.set_spin(0, {0, 0, 1e-4});
@@ -155,7 +155,7 @@ TEST_CASE("the work of loads and of prescribed rotation in 3D is in the ledger",
 TEST_CASE("the shear force of a wall rotates with the sphere that twists on it", "[3d][friction]") {
     // Slid by u along x, then spun about the wall's normal: k_s u, turned by half the sphere's angle, as by the mean of
     // the two spins. Two full turns and a bit.
-    auto p = unit_springs(never, never, 1.0);
+    auto p = unit_springs_in_space(never, never, 1.0);
     p.time_step = 1e-2;
     p.walls = {{{0, 0, 0}, {0, 0, 1}, p.materials[0].contact}};
     lacuna::packing<double, 3> one;

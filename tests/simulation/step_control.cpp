@@ -18,9 +18,6 @@ struct elastic_spheres : lacuna::default_model<Dim, Real> {
     using contact_law = lacuna::hertz_mindlin;
     using damping = Damping;
 };
-struct plane_combined : plane {
-    using damping = lacuna::combined_damping;
-};
 
 template <class Model>
 lacuna::simulation_parameters<Model> steel(double young = 1e9) {

@@ -20,6 +20,7 @@
 #include <lacuna/simulation/checkpoint.hpp>
 
 using namespace lacuna;
+using setups::noise;
 using point = vec<double, 3>;
 
 namespace {
@@ -42,8 +43,6 @@ simulation_parameters<porous> bonded(double kn, double ks) {
     p.materials[0].bond = {kn, ks};
     return p;
 }
-
-double noise(std::size_t k, int salt) { return std::sin(12.9898 * double(k) + 78.233 * salt); }
 
 /// Spheres in a slightly disturbed cubic lattice, bonded if they nearly touch.
 packing<double, 3> cluster(int n, double disturbance) {
