@@ -9,11 +9,11 @@
 
 namespace lacuna_run {
 
-/// What a file says as a whole: which keys mean something in it.
-class file_meaning {
+/// Decides which keys apply in a file, from the file as a whole.
+class file_context {
 public:
-    explicit file_meaning(toml::table const& file) : file_(file) {
-        // As a whole number only: toml++ takes other numbers for one without asking whether they fit.
+    explicit file_context(toml::table const& file) : file_(file) {
+        // value<int>() of toml++ converts a floating-point number without a check of its range.
         auto const* whole = file_["simulation"]["dimension"].as_integer();
         dimension_ = whole && whole->get() == 3 ? 3 : 2;
         for (key const& row : keys) {
@@ -31,16 +31,16 @@ public:
                 refuse_unknown({&node, path_of(path, text)}, text, known);
         }
         if (auto const* node = path.empty() ? t.get("simulation") : nullptr) entry(*find_key("simulation"), {node, "simulation"});
-        // First what does not belong here at all, then what it is.
-        for (bool const meaning : {true, false})
+        // A key that must be left out is refused before the values of other keys.
+        for (bool const applies : {true, false})
             for (auto const& [name, row] : known)
                 if (auto const* node = t.get(name)) {
                     value const v{node, path_of(path, name)};
-                    meaning ? must_mean_something(*row, v, t) : entry(*row, v);
+                    applies ? require_applicable(*row, v, t) : entry(*row, v);
                 }
     }
 
-    /// The first condition of a key that does not hold, or none.
+    /// The first condition of a key that fails, or nullptr.
     condition const* broken(key const& row, toml::table const& beside) const {
         for (condition const& c : conditions)
             if ((row.where & c.what) != 0 && !holds(c.what, beside)) return &c;
@@ -60,7 +60,7 @@ private:
         v.refuse("a known key" + did_you_mean(word, names));
     }
 
-    void must_mean_something(key const& row, value const& v, toml::table const& beside) const {
+    void require_applicable(key const& row, value const& v, toml::table const& beside) const {
         auto const* c = broken(row, beside);
         if (c == nullptr || *c->otherwise == '\0') return;
         auto const* list = v.node->as_array();
@@ -79,7 +79,7 @@ private:
     bool implicit() const { return file_["fluid"]["solver"].value_or(std::string()) == "implicit"; }
     bool is_number(char const* section) const { return file_[section]["time_step"].value_or(0.0) > 0; }
 
-    /// Whether bonds take a value from the materials, not from a key of their own.
+    /// Whether bonds take a value from the materials and not from `own_key` in [bonds].
     bool bonds_take(char const* own_key) const { return bonds() && !file_["bonds"][own_key]; }
     bool young(toml::table const& material) const { return hertz() && material.contains("young_modulus"); }
 
@@ -88,8 +88,8 @@ private:
         return g && std::any_of(g->begin(), g->end(), [](auto const& x) { return x.value_or(0.0) != 0; });
     }
 
-    /// Discs have it in their mass, pores in their volume, bonds and pressures in the areas that their strengths act on.
-    bool thickness_taken() const {
+    /// The thickness enters the mass of discs, the volume of pores, and the areas of bonds and pressures.
+    bool thickness_matters() const {
         if (word("mass", "disc") != "sphere" || file_.contains("fluid")) return true;
         if (auto const* all = file_["materials"].as_table(); all && bonds())
             for (auto const& [name, node] : *all)
@@ -118,7 +118,7 @@ private:
         case with_parallel_bonds: return word("bond_law", "brittle_spring") == "parallel_bond";
         case bonds_for_it: return is("bond_law", "none") || file_.contains("bonds");
         case with_forces: return contacts() || bonds();
-        case thickness_used: return thickness_taken();
+        case thickness_used: return thickness_matters();
         case gravity_given: return has_gravity();
         case own_step: return !(flow_alone() && is_number("fluid"));
         case auto_step: return !is_number("simulation") && !(flow_alone() && is_number("fluid"));
@@ -141,7 +141,7 @@ private:
         }
     }
 
-    /// Conditions on the same table alone.
+    /// Conditions that depend on the key's own table.
     bool holds_beside(needs what, toml::table const& beside) const {
         auto const is = [&](char const* key, char const* text) { return beside[key].value_or(std::string()) == text; };
         switch (what) {
@@ -170,7 +170,7 @@ private:
         };
         auto const each_or_one = [&](auto const& one) { v.node->is_array() ? each(one) : one(v); };
         auto const number = [&](value const& one) { (void)one.number(row.good); };
-        auto const turn = [&](value const& one) { dimension_ == 2 ? (void)one.number() : (void)one.vector(3); };
+        auto const rotation = [&](value const& one) { dimension_ == 2 ? (void)one.number() : (void)one.vector(3); };
         switch (row.what) {
         case kind::table: sub_table(v, row.path); break;
         case kind::tables:
@@ -194,9 +194,9 @@ private:
         case kind::quantity:
         case kind::text: (void)v.string(); break;
         case kind::vector: (void)v.vector(dimension_); break;
-        case kind::turn: turn(v); break;
+        case kind::rotation: rotation(v); break;
         case kind::points: each([&](value const& one) { (void)one.vector(dimension_); }); break;
-        case kind::turns: each(turn); break;
+        case kind::rotations: each(rotation); break;
         case kind::each_number: each_or_one(number); break;
         case kind::each_text: each_or_one([](value const& one) { (void)one.string(); }); break;
         case kind::numbers:
@@ -212,18 +212,18 @@ private:
     }
 
     toml::table const& file_;
-    std::map<std::string, rows_below> below_; ///< of each table, in the order of the rows
+    std::map<std::string, rows_below> below_; ///< the keys of each table, in the order of the rows
     int dimension_;
 };
 
-std::shared_ptr<file_meaning const> check_keys(toml::table const& file) {
-    auto meaning = std::make_shared<file_meaning const>(file);
-    meaning->table(file, "", "");
-    return meaning;
+std::shared_ptr<file_context const> check_keys(toml::table const& file) {
+    auto context = std::make_shared<file_context const>(file);
+    context->table(file, "", "");
+    return context;
 }
 
-bool means_something(file_meaning const& meaning, key const& row, toml::table const& beside) {
-    return meaning.broken(row, beside) == nullptr;
+bool is_applicable(file_context const& context, key const& row, toml::table const& beside) {
+    return context.broken(row, beside) == nullptr;
 }
 
 } // namespace lacuna_run

@@ -12,7 +12,7 @@
 
 namespace lacuna_run {
 
-/// A run that goes on with other probes tells theirs from there on.
+/// Starts a new probes.csv in the journal if a resumed run has other probes.
 inline void begin_other_probes(journal& restored, std::string const& heading) {
     if (restored.heading == heading) return;
     restored.heading = heading;

@@ -30,19 +30,19 @@ void chosen_flow::solver<Real, Dim>::map(lookup_type const& lookup) {
 }
 
 template <class Real, int Dim>
-void chosen_flow::solver<Real, Dim>::refresh_apertures(bodies const& place, Real const* normal_forces, int threads) {
-    std::visit([&](auto& one) { one.refresh_apertures(place, normal_forces, threads); }, chosen_);
+void chosen_flow::solver<Real, Dim>::refresh_apertures(bodies const& positions, Real const* normal_forces, int threads) {
+    std::visit([&](auto& one) { one.refresh_apertures(positions, normal_forces, threads); }, chosen_);
 }
 
 template <class Real, int Dim>
-void chosen_flow::solver<Real, Dim>::take_step(bool with_ledger, bodies const& place, Real const* normal_forces, Real dt,
+void chosen_flow::solver<Real, Dim>::take_step(bool with_ledger, bodies const& positions, Real const* normal_forces, Real dt,
                                                int threads, records* tractions) {
     std::visit(
         [&](auto& one) {
             if (with_ledger)
-                one.template step<true>(place, normal_forces, dt, threads, tractions);
+                one.template step<true>(positions, normal_forces, dt, threads, tractions);
             else
-                one.template step<false>(place, normal_forces, dt, threads, tractions);
+                one.template step<false>(positions, normal_forces, dt, threads, tractions);
         },
         chosen_);
 }

@@ -16,7 +16,7 @@
 
 namespace lacuna_run {
 
-/// The aperture law that the file names: one of two, chosen for a whole run.
+/// One of two aperture laws, chosen at the start of a run.
 struct chosen_aperture {
     struct parameters {
         bool is_constant = false;
@@ -36,8 +36,8 @@ struct chosen_aperture {
 
 enum class flow_kind { none, explicit_steps, implicit_steps };
 
-/// Flow policy of the plane: no fluid, explicit or implicit flow, chosen for a whole run. One branch a step spares the
-/// compiler a simulator for each; the solvers are compiled once, in chosen_flow.cpp.
+/// Flow policy of the plane: no fluid, explicit flow or implicit flow, chosen at the start of a run. One branch per
+/// step avoids a separate simulator for each. The solvers are compiled once, in chosen_flow.cpp.
 struct chosen_flow {
     struct parameters : lacuna::implicit_flow_parameters<chosen_aperture> {
         flow_kind kind = flow_kind::none;
@@ -47,7 +47,7 @@ struct chosen_flow {
             lacuna::implicit_flow_parameters<chosen_aperture>::for_each_named(visit);
             visit("kind", kind);
         }
-        /// A run without fluid: its network has no pores.
+        /// Whether the run has no fluid: then its network has no pores.
         bool dry() const noexcept { return kind == flow_kind::none; }
         void validate(std::string const& name) const {
             if (kind == flow_kind::implicit_steps)
@@ -70,7 +70,7 @@ struct chosen_flow {
         using network_type = lacuna::pore_network<Real, 2>;
         using lookup_type = std::function<std::int64_t(std::int32_t, std::int32_t)>;
 
-        /// The pores of a body.
+        /// Pores between particles.
         solver(parameters const& p, network_type network, Real thickness, points_type points, Real const* radii);
         /// A bare network.
         solver(parameters const& p, network_type network);
@@ -79,23 +79,23 @@ struct chosen_flow {
         void map_throats(Lookup const& lookup) {
             map(lookup_type(lookup));
         }
-        void refresh_apertures(bodies const& place, Real const* normal_forces, int threads = 1);
+        void refresh_apertures(bodies const& positions, Real const* normal_forces, int threads = 1);
         template <bool WithLedger>
-        void step(bodies const& place, Real const* normal_forces, Real dt, int threads = 1, records* tractions = nullptr) {
-            take_step(WithLedger, place, normal_forces, dt, threads, tractions);
+        void step(bodies const& positions, Real const* normal_forces, Real dt, int threads = 1, records* tractions = nullptr) {
+            take_step(WithLedger, positions, normal_forces, dt, threads, tractions);
         }
         /// One step of flow alone.
         void advance(Real dt, int threads);
         std::array<lacuna::vec<Real, 2>, 3> pore_tractions(std::size_t pore, points_type points, Real const* radii) const;
         Real critical_time_step() const;
-        /// Of explicit and implicit flow; infinite without fluid.
+        /// As of the explicit and implicit solver, s; infinite without fluid.
         Real mean_throat_limit() const;
         Real storage_energy() const;
         lacuna::flow_ledger<Real> const& ledger() const;
         network_type const& network() const;
         parameters const& settings() const { return parameters_; }
         std::size_t deactivate_slow_throats();
-        /// Goes on with another network of the same body; see the solvers.
+        /// Continues with another network of the same packing, as the solvers do.
         void restore(network_type network, lacuna::flow_ledger<Real> const& ledger);
         template <class Archive>
         void serialize(Archive& ar) {
@@ -104,7 +104,7 @@ struct chosen_flow {
 
     private:
         void map(lookup_type const& lookup);
-        void take_step(bool with_ledger, bodies const& place, Real const* normal_forces, Real dt, int threads,
+        void take_step(bool with_ledger, bodies const& positions, Real const* normal_forces, Real dt, int threads,
                        records* tractions);
 
         parameters parameters_;

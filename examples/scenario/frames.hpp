@@ -10,7 +10,7 @@
 
 namespace lacuna_run {
 
-/// The state of a run that pictures and VTK files show.
+/// The state of a run as pictures and VTK files show it. SI units.
 struct frame_data {
     struct pore {
         std::array<std::int32_t, 3> corners;
@@ -21,14 +21,16 @@ struct frame_data {
     std::vector<point> position, velocity;
     std::vector<char> intact; ///< of each bond
     std::vector<pore> pores;
-    bool rigid = false; ///< of flow alone
 };
 
-/// Writes particles-<step>.vtp, bonds-<step>.vtp, pores-<step>.vtp where there are pores, and the series particles.pvd
-/// and so on.
+/// Writes particles-<step>.vtp, with bonds also bonds-<step>.vtp, with fluid also pores-<step>.vtp. Adds each file to
+/// its series particles.pvd, bonds.pvd or pores.pvd.
+/// \throws std::runtime_error for a file that cannot be written
 void write_vtk(results& out, frame_data const& f, scenario const& s, journal const& j);
 
-/// Writes picture-<step>.png and .svg.
+/// Writes picture-<step>.png and picture-<step>.svg.
+/// \throws std::runtime_error for a file that cannot be written
+/// \throws refusal in a program built without pictures
 void write_picture(results const& out, frame_data const& f, scenario const& s, journal const& j);
 
 } // namespace lacuna_run

@@ -22,18 +22,19 @@ struct break_line {
     double normal_force = 0, shear_force = 0, energy = 0;
 };
 
-/// What pictures and VTK files show of a broken bond.
+/// A broken bond in pictures and VTK files.
 struct crack {
     std::int32_t bond = 0;
     bool shear = false;
     point position{}, direction{};
 };
 
-/// What a run's files say so far: a part of its state. The rows are in the files alone, of which it knows how far they go.
+/// The cracks so far, and how many bytes of each growing file are written. Part of a run's state. Rows of probes.csv
+/// and events.csv are stored in the files alone.
 struct journal {
     std::string heading; ///< of probes.csv
     std::vector<crack> cracks;
-    lacuna::file_mark probes, events, particles, bonds, pores; ///< of the logs and of the series of frames
+    lacuna::file_mark probes, events, particles, bonds, pores; ///< of the CSV files and the series of frames
     std::size_t broken(bool shear) const noexcept {
         std::size_t count = 0;
         for (crack const& c : cracks) count += c.shear == shear;

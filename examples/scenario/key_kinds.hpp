@@ -5,15 +5,15 @@
 #include <limits>
 
 /// \file
-/// What a row of the table of keys (key_table.hpp) is made of.
+/// The parts of a row in the table of keys, key_table.hpp.
 
 namespace lacuna_run {
 
-/// What may stand at a key.
+/// Kind of a key's value.
 enum class kind {
     table,      ///< a table
     tables,     ///< a list of tables
-    named,      ///< tables by names of the user's own
+    named,      ///< tables whose names the user chooses
     number,
     step,       ///< "auto", or a number of seconds > 0
     whole,      ///< a whole number
@@ -21,24 +21,24 @@ enum class kind {
     word,       ///< one of the choices
     text,
     vector,     ///< as many numbers as there are dimensions
-    turn,       ///< a number in the plane, three in space
+    rotation,   ///< one number in the plane, three in space
     points,     ///< a list of vectors
-    turns,      ///< a list of turns
+    rotations,  ///< a list of rotations
     each_number, ///< one number for all, or a list of them
     each_text,  ///< one string for all, or a list of them
-    numbers,    ///< a list of particles' numbers
-    pairs,      ///< a list of pairs of particles' numbers
+    numbers,    ///< a list of particle numbers
+    pairs,      ///< a list of pairs of particle numbers
     two,        ///< a list of two numbers
-    index,      ///< the number of a particle, bond, ...
+    index,      ///< the number of one particle, bond, ...
     quantity    ///< one of the quantities of probes.hpp
 };
 
-/// Which numbers, or which words, are good.
+/// Allowed numbers or words.
 struct rule {
     double least = -std::numeric_limits<double>::infinity(), most = std::numeric_limits<double>::infinity();
-    bool above_least = false; ///< the least is not good itself
-    char const* text = "";    ///< as messages and help state it
-    char const* choices = ""; ///< of a word, parted by '|'
+    bool above_least = false; ///< `least` itself is refused
+    char const* text = "";    ///< the range, for messages and help
+    char const* choices = ""; ///< allowed words, separated by '|'
 };
 inline constexpr rule any{};
 inline constexpr rule positive{0, std::numeric_limits<double>::infinity(), true, "> 0"};
@@ -48,7 +48,7 @@ inline constexpr rule fraction{0, 1, false, "from 0 to 1"};
 inline constexpr rule steps_or_none{0, 1e15, false, "from 0 (none) to 1e15 steps"};
 constexpr rule one_of(char const* choices) { return {0, 0, false, "", choices}; }
 
-/// What must hold for a key to mean something; several may be asked together.
+/// Conditions under which a key applies; a key may combine several.
 enum needs : std::uint64_t {
     always = 0,
     in_plane = 1ull << 0,
@@ -96,68 +96,68 @@ enum needs : std::uint64_t {
     material_used = 1ull << 42
 };
 
-/// One condition of these.
+/// The texts of one condition.
 struct condition {
     needs what;
-    char const* where;     ///< as --help tells it
-    char const* otherwise; ///< why the key must be left out where it does not hold; empty: it may stand there, but need not
+    char const* where;     ///< for --help and the README
+    char const* otherwise; ///< why the key must be left out if the condition fails; empty: the key is then optional
 };
 inline constexpr condition conditions[] = {
-    {in_plane, "only with dimension = 2", "it belongs to dimension = 2"},
+    {in_plane, "only with dimension = 2", "it needs dimension = 2"},
     {with_particles, "not with fluid.network", "fluid.network replaces the particles"},
-    {moving, "only where particles move", "fluid.mechanical_coupling is false: particles do not move"},
+    {moving, "only if particles move", "fluid.mechanical_coupling is false: particles do not move"},
     {with_contacts, "not with contact_law = \"none\"", "contact_law is \"none\""},
-    {with_hertz, "only with contact_law = \"hertz_mindlin\"", "it belongs to contact_law = \"hertz_mindlin\""},
+    {with_hertz, "only with contact_law = \"hertz_mindlin\"", "it needs contact_law = \"hertz_mindlin\""},
     {with_bonds, "not with bond_law = \"none\"", "bond_law is \"none\""},
-    {with_parallel_bonds, "only with bond_law = \"parallel_bond\"", "it belongs to bond_law = \"parallel_bond\""},
+    {with_parallel_bonds, "only with bond_law = \"parallel_bond\"", "it needs bond_law = \"parallel_bond\""},
     {bonds_for_it, "other than \"none\" only with [bonds]", "there are no [bonds]"},
     {with_forces, "only with contacts or bonds", "there are neither contacts nor bonds"},
-    {thickness_used, "not where spheres have neither fluid, strengths nor pressures", "nothing here depends on it: spheres have none"},
+    {thickness_used, "for spheres only with fluid, strengths or pressures", "nothing here depends on it: spheres have no thickness"},
     {gravity_given, "only with gravity", "there is no gravity"},
-    {own_step, "not with fluid.time_step of flow alone", "fluid.time_step is the step of flow alone"},
+    {own_step, "not if flow alone has fluid.time_step", "with flow alone fluid.time_step is the step"},
     {auto_step, "only with time_step = \"auto\"", "time_step is given"},
-    {bounded_step, "with implicit or automatic flow alone there is nothing to allow", "no step is given here that could be unstable"},
+    {bounded_step, "not with flow alone that is implicit or chooses its step", "no time step is given here that could be unstable"},
     {no_steps, "not with steps", "steps is given"},
-    {normal_used, "needed where a contact or a bond takes it", ""},
-    {shear_used, "needed where a contact or a bond takes it", ""},
-    {tension_used, "only where a bond takes it", "no bond takes it"},
-    {shearing_used, "only where a bond takes it", "no bond takes it"},
+    {normal_used, "needed if a contact or bond uses it", ""},
+    {shear_used, "needed if a contact or bond uses it", ""},
+    {tension_used, "only if a bond uses it", "no bond uses it"},
+    {shearing_used, "only if a bond uses it", "no bond uses it"},
     {no_young, "not needed with young_modulus", ""},
     {young_given, "only with young_modulus", "young_modulus is not given"},
-    {no_file, "not with file", "the file has it"},
+    {no_file, "not with file", "particles.file contains it"},
     {touching_bonds, "only with touching = true", "touching is not true"},
     {listed_bonds, "not with touching = true", "touching is true"},
     {no_velocity, "not with velocity", "velocity is given"},
     {no_pressure, "not with pressure", "pressure is given"},
-    {pressure_given, "only with pressure", "it belongs to a pressure"},
+    {pressure_given, "only with pressure", "it needs a pressure"},
     {drained, "only with boundary = \"drained\"", "boundary is not \"drained\""},
     {explicit_flow, "only with solver = \"explicit\"", "solver is \"implicit\""},
     {bare_network, "only with fluid.network", "throats of a triangulation have no numbers: give near"},
     {no_pore, "not with pore", "pore is given"},
     {no_throat, "not with throat", "throat is given"},
-    {constant_aperture, "only with law = \"constant\"", "it belongs to law = \"constant\""},
-    {contact_aperture, "only with law = \"contact_force\"", "it belongs to law = \"contact_force\""},
+    {constant_aperture, "only with law = \"constant\"", "it needs law = \"constant\""},
+    {contact_aperture, "only with law = \"contact_force\"", "it needs law = \"contact_force\""},
     {remeshed, "only with rule = \"when_needed\"", "rule is not \"when_needed\""},
     {bonds_there, "only with [bonds]", "there are no [bonds]"},
-    {lasting_pores, "not with remeshing", "remeshing numbers pores anew: give near"},
-    {materials_named, "not needed of flow alone but for the names in particles.file", ""},
-    {density_used, "needed where particles move", ""},
-    {friction_used, "needed of contacts", ""},
-    {material_used, "needed where particles move", ""},
-    {normal_besides_young, "with young_modulus needed of bonds alone", ""},
-    {shear_besides_young, "with young_modulus needed of bonds alone", ""},
+    {lasting_pores, "not with remeshing", "remeshing renumbers the pores: give near"},
+    {materials_named, "with flow alone only for the names in particles.file", ""},
+    {density_used, "needed if particles move", ""},
+    {friction_used, "needed for contacts", ""},
+    {material_used, "needed if particles move", ""},
+    {normal_besides_young, "with young_modulus needed only for bonds", ""},
+    {shear_besides_young, "with young_modulus needed only for bonds", ""},
 };
 
-inline constexpr char const* required = "-"; ///< as standard: the key must be given
+inline constexpr char const* required = "-"; ///< as default_value: the key must be given
 
-/// One key. Its path says where it stands: `*` is a name of the user's own, `[]` an entry of a list.
+/// One key. In its path `*` is a name that the user chooses, and `[]` is an entry of a list.
 struct key {
     char const* path;
     kind what;
     char const* unit;
-    char const* standard; ///< what holds without it, as TOML; `required`; or in words, "" for nothing
+    char const* default_value; ///< as TOML or in words; `required`; or "" for none
     rule good;
-    std::uint64_t where; ///< `needs`, together
+    std::uint64_t where; ///< combined `needs`
     char const* meaning;
 };
 

@@ -17,7 +17,7 @@ bool begins(std::string_view text, std::string_view with) { return text.substr(0
 /// Whether the section describes the key.
 bool is_in(key const& k, std::string_view section) {
     std::string_view const path = k.path;
-    // A table that only holds others is described by them.
+    // The rows of its keys describe a table without a meaning of its own.
     if ((k.what == kind::table || k.what == kind::tables) && *k.meaning == '\0') return false;
     return begins(path, section) && path.size() > section.size() && path.substr(section.size()) != ".*" &&
            (path[section.size()] == '.' || path[section.size()] == '[');
@@ -33,7 +33,7 @@ std::string name_in(key const& k, std::string_view section) {
 }
 
 /// Unit, choices or range, meaning and condition, as one line.
-std::string told(key const& k, char const* quote) {
+std::string description(key const& k, char const* quote) {
     std::string text;
     auto const add = [&](std::string const& part) {
         if (!part.empty()) text += (text.empty() ? "" : "; ") + part;
@@ -49,7 +49,7 @@ std::string told(key const& k, char const* quote) {
     return text;
 }
 
-/// The words behind `head`, in lines that go on below the first word.
+/// Breaks `head` and the words of `text` into lines; all but the first are indented.
 std::string wrapped(std::string head, std::string const& text) {
     if (text.empty()) return head + "\n";
     head += head.size() + 2 > indent ? "\n" + std::string(indent, ' ') : std::string(indent - head.size(), ' ');
@@ -70,10 +70,10 @@ std::string wrapped(std::string head, std::string const& text) {
     return result + line + "\n";
 }
 
-/// Whether a default is written as TOML, not told in words.
-bool is_toml(std::string const& standard) {
-    return standard == "true" || standard == "false" || (!standard.empty() && standard.back() == '"') ||
-           (!standard.empty() && standard.find_first_not_of("0123456789.e+-") == std::string::npos);
+/// Whether a default is a TOML value and not a phrase.
+bool is_toml(std::string const& default_value) {
+    return default_value == "true" || default_value == "false" || (!default_value.empty() && default_value.back() == '"') ||
+           (!default_value.empty() && default_value.find_first_not_of("0123456789.e+-") == std::string::npos);
 }
 
 bool is_list(key const& k) { return k.what == kind::tables; }
@@ -91,12 +91,12 @@ std::string name_of(quantity_row const& q) {
 }
 
 std::string quantities_help() {
-    std::string text = "  Quantities, and the key that says of which one:\n";
+    std::string text = "  Quantities, and the key that selects the particle, bond, ...:\n";
     for (quantity_row const& q : quantities) {
-        std::string told = q.unit;
+        std::string description = q.unit;
         for (std::string const part : {key_of(q.of), q.meaning})
-            if (!part.empty()) told += (told.empty() ? "" : "; ") + part;
-        text += wrapped("    " + name_of(q), told);
+            if (!part.empty()) description += (description.empty() ? "" : "; ") + part;
+        text += wrapped("    " + name_of(q), description);
     }
     return text;
 }
@@ -104,21 +104,22 @@ std::string quantities_help() {
 } // namespace
 
 std::string keys_help() {
-    std::string text = "\nA scenario is one TOML file in SI units. \"name = value\" shows what holds where the key is left out.\n"
-                       "A key that means nothing beside the others is refused.\n";
+    std::string text = "\nA scenario is one TOML file in SI units. \"name = value\" shows a key and its default.\n"
+                       "A key that has no effect together with the others is refused.\n"
+                       "\"Flow alone\": only fluid moves; fluid.network is given, or fluid.mechanical_coupling is false.\n";
     for (std::string_view const section : sections) {
-        text += "\n" + wrapped(heading(section), told(*find_key(section), "\""));
+        text += "\n" + wrapped(heading(section), description(*find_key(section), "\""));
         for (key const& k : keys) {
             if (!is_in(k, section)) continue;
             std::string head = "  " + name_in(k, section);
-            std::string const standard = k.standard;
-            std::string what = told(k, "\"");
-            if (standard == required)
+            std::string const default_value = k.default_value;
+            std::string what = description(k, "\"");
+            if (default_value == required)
                 what = "(must be given) " + what;
-            else if (is_toml(standard))
-                head += " = " + standard;
-            else if (!standard.empty())
-                what += (what.empty() ? "default: " : "; default: ") + standard;
+            else if (is_toml(default_value))
+                head += " = " + default_value;
+            else if (!default_value.empty())
+                what += (what.empty() ? "default: " : "; default: ") + default_value;
             if (k.what == kind::tables) head += " = [ { ... } ]";
             if (k.what == kind::table) head += " = { ... }";
             text += wrapped(head, what);
@@ -126,31 +127,31 @@ std::string keys_help() {
         if (section == "probes") text += quantities_help();
     }
     return text + "\nExit status: 0 done, 1 a file could not be written, 2 the scenario is refused (nothing is written),\n"
-                  "3 the run went unstable (what it had told so far is written), 130 and 143 stopped by Ctrl-C and SIGTERM\n"
-                  "(the same, and --restart goes on from there).\n";
+                  "3 the run became unstable (results so far are written), 130 and 143 stopped by Ctrl-C and SIGTERM\n"
+                  "(results so far are written, and --restart continues from there).\n";
 }
 
 std::string keys_markdown(std::string_view section) {
     std::string text = "| `" + heading(section) + "` | default | |\n| --- | --- | --- |\n";
     for (key const& k : keys) {
         if (!is_in(k, section)) continue;
-        std::string const standard = std::string_view(k.standard) == required ? "–" : k.standard;
-        text += "| `" + name_in(k, section) + "` | " + standard + " | " + told(k, "`") + " |\n";
+        std::string const default_value = std::string_view(k.default_value) == required ? "–" : k.default_value;
+        text += "| `" + name_in(k, section) + "` | " + default_value + " | " + description(k, "`") + " |\n";
     }
     return text;
 }
 
 std::string quantities_markdown() {
-    std::string text = "| quantity | of which one | |\n| --- | --- | --- |\n";
+    std::string text = "| quantity | selected by | |\n| --- | --- | --- |\n";
     for (quantity_row const& q : quantities) {
         std::string axes = name_of(q), which = key_of(q.of);
         for (auto at = axes.find('|'); at != axes.npos; at = axes.find('|', at + 2)) axes.replace(at, 1, ", ");
         for (char const* const between : {", ", " or "})
             for (auto at = which.find(between); at != which.npos; at = which.find(between, at + 4))
                 which.replace(at, std::string(between).size(), "`" + std::string(between) + "`");
-        std::string told = q.unit;
-        if (*q.meaning != '\0') told += (told.empty() ? "" : "; ") + std::string(q.meaning);
-        text += "| `" + axes + "` | " + (which.empty() ? "" : "`" + which + "`") + " | " + told + " |\n";
+        std::string description = q.unit;
+        if (*q.meaning != '\0') description += (description.empty() ? "" : "; ") + std::string(q.meaning);
+        text += "| `" + axes + "` | " + (which.empty() ? "" : "`" + which + "`") + " | " + description + " |\n";
     }
     return text;
 }

@@ -23,15 +23,16 @@ struct request {
     bool check = false, force = false, quiet = false;
 };
 
-/// A run that a signal has stopped: marked, and how to go on.
-int say_stopped(request const& asked, lacuna_run::results& out, lacuna_run::runner const& run) {
+/// Finishes the files of a run that a signal stopped, and prints how to continue it.
+/// \return the exit status
+int finish_stopped(request const& asked, lacuna_run::results& out, lacuna_run::runner const& run) {
     int const number = lacuna::stop_signal();
     std::string const signal = lacuna::signal_name(number);
     out.finish(run.summary("stopped by " + signal, "after step " + std::to_string(run.steps())), false);
 #ifdef LACUNA_RUN_CHECKPOINTS
-    std::string const how = "--restart " + out.file("checkpoint.bin") + " goes on from there";
+    std::string const how = "--restart " + out.file("checkpoint.bin") + " continues from there";
 #else
-    std::string const how = "built without checkpoints it cannot go on";
+    std::string const how = "this program was built without checkpoints: the run cannot be continued";
 #endif
     std::fprintf(stderr, "lacuna-run: %s: stopped by %s after step %lld; %s\n", asked.file.c_str(), signal.c_str(), run.steps(),
                  how.c_str());
@@ -44,7 +45,7 @@ int run(request const& asked) {
     lacuna_run::resumption start;
     if (!asked.checkpoint.empty()) {
         run->restore(asked.checkpoint);
-        start = lacuna_run::find_earlier_part(scenario, asked.checkpoint, run->told(), run->steps());
+        start = lacuna_run::find_earlier_part(scenario, asked.checkpoint, run->log(), run->steps());
     }
     if (asked.check) {
         if (!asked.quiet) std::printf("%s: fine\n", asked.file.c_str());
@@ -55,7 +56,7 @@ int run(request const& asked) {
     lacuna_run::results out(scenario, asked.force, asked.quiet, start);
     out.begin();
     try {
-        if (!run->run(out)) return say_stopped(asked, out, *run);
+        if (!run->run(out)) return finish_stopped(asked, out, *run);
     } catch (lacuna::unstable_run const& bad) {
         out.finish(run->summary("unstable", bad.what()), true);
         throw;
@@ -70,16 +71,16 @@ int run(request const& asked) {
     return done;
 }
 
-/// \return the exit status, where the command line alone decides it; else -1
+/// \return the exit status if the command line alone decides it, otherwise -1
 int parse(int argc, char** argv, request& asked) {
-    CLI::App app("Runs one TOML scenario of bonded particles and pore fluid and writes what it asks for.\n"
-                 "Exit status: 0 done, 1 a file could not be written, 2 refused, 3 run became unstable, 128 + number of a signal.", "lacuna-run");
+    CLI::App app("Simulates bonded particles and pore fluid as described by a TOML file.\n"
+                 "Exit status: 0 done, 1 a file could not be written, 2 refused, 3 the run became unstable, 128 + number of a signal.", "lacuna-run");
     app.footer(lacuna_run::keys_help());
     app.add_option("FILE", asked.file, "the scenario")->required()->type_name("");
     app.add_flag("--check", asked.check, "only check the scenario");
-    app.add_option("--restart", asked.checkpoint, "go on from a checkpoint of the same scenario")->type_name("FILE");
-    app.add_flag("--force", asked.force, "replace the results that are in the output directory; other files in it stay");
-    app.add_flag("--quiet", asked.quiet, "say nothing but errors");
+    app.add_option("--restart", asked.checkpoint, "continue from a checkpoint of the same scenario")->type_name("FILE");
+    app.add_flag("--force", asked.force, "replace the results in the output directory; other files stay");
+    app.add_flag("--quiet", asked.quiet, "print nothing but errors");
     app.set_version_flag("--version", programs::version_text("lacuna-run"));
     try {
         return programs::parse(app, argc, argv) ? -1 : int(done);

@@ -14,7 +14,7 @@
 #include "scenario.hpp"
 
 /// \file
-/// A scenario's numbers as the parameters of the library's parts.
+/// Converts a scenario to the parameters of the library.
 
 namespace lacuna_run {
 
@@ -25,21 +25,21 @@ lacuna::vec<double, Dim> to_vec(point const& p) {
     return v;
 }
 
-inline double mean_radius(particles const& p) {
+inline double mean_radius(particle_list const& p) {
     double sum = 0;
     for (double const r : p.radius) sum += r;
     return sum / double(p.radius.size());
 }
 
-/// What a material, or a wall, contributes to frictional springs.
-template <class Body>
-void fill_contact(lacuna::frictional_spring::material& to, Body const& from, double /*mean_radius*/) {
+/// Fills the parameters of frictional springs from a material or a wall.
+template <class Solid>
+void fill_contact(lacuna::frictional_spring::material& to, Solid const& from, double /*mean_radius*/) {
     to = {from.normal_stiffness, from.shear_stiffness, from.friction};
 }
-/// ... and to Hertzian contacts: from Young's modulus, or so that two particles of the mean radius have the stiffnesses
-/// given at an overlap of 1 % of it.
-template <class Body>
-void fill_contact(lacuna::hertz_mindlin::material& to, Body const& from, double mean_radius) {
+/// Fills the parameters of Hertzian contacts from a material or a wall. Without Young's modulus they give two particles
+/// of the mean radius the stated stiffnesses at an overlap of 1 % of that radius.
+template <class Solid>
+void fill_contact(lacuna::hertz_mindlin::material& to, Solid const& from, double mean_radius) {
     if (from.young_modulus) {
         to = {*from.young_modulus, from.poisson_ratio, from.friction, 1};
         return;
@@ -58,15 +58,16 @@ void fill_bond(Bond& to, material const& from) {
 }
 
 template <class Flow>
-void fill_merging(Flow& to, fluid const& from) {
+void fill_merging(Flow& to, fluid_settings const& from) {
     if (!from.merge_conductance) return;
     if constexpr (requires { to.merge_conductance; })
         to.merge_conductance = *from.merge_conductance;
     else if (*from.merge_conductance < 1e300)
-        refuse("fluid.merge_conductance", lacuna::to_text(*from.merge_conductance), "left out: pores do not merge here");
+        refuse("fluid.merge_conductance", lacuna::to_text(*from.merge_conductance),
+               "left out: this kind of flow does not merge pores");
 }
 
-inline chosen_flow::parameters flow_of(fluid const& from) {
+inline chosen_flow::parameters flow_of(fluid_settings const& from) {
     chosen_flow::parameters to;
     to.kind = from.implicit ? flow_kind::implicit_steps : flow_kind::explicit_steps;
     to.bulk_modulus = from.bulk_modulus;
@@ -77,17 +78,18 @@ inline chosen_flow::parameters flow_of(fluid const& from) {
         to.aperture.constant.aperture = from.aperture;
     else
         to.aperture.contact_force = {from.aperture, from.half_force, from.gap_factor};
-    // As many flow steps within one of the particles as are safe.
+    // 0: as many flow steps per particle step as stability needs.
     to.substeps = from.implicit ? 1 : 0;
     if (from.minimum_pressure) to.minimum_pressure = *from.minimum_pressure;
     fill_merging(to, from);
     return to;
 }
 
-/// For how long throats have to matter, s: as the file says, or as long as the run; infinite where that is not known yet.
+/// Time within which the flow of a throat must be noticeable, s: fluid.duration or the length of the run. Infinite if
+/// that length is not known yet.
 inline double duration_of(scenario const& s) {
     settings const& set = s.simulation;
-    if (s.water->duration) return *s.water->duration;
+    if (s.fluid->duration) return *s.fluid->duration;
     if (set.end_time) return *set.end_time;
     double const steps = std::max(1.0, double(*set.steps));
     return set.time_step > 0 ? steps * set.time_step : std::numeric_limits<double>::infinity();
@@ -98,7 +100,7 @@ lacuna::simulation_parameters<Model> model_parameters(scenario const& s) {
     constexpr int dim = Model::dim;
     lacuna::simulation_parameters<Model> p;
     settings const& set = s.simulation;
-    double const radius = mean_radius(s.bodies);
+    double const radius = mean_radius(s.particles);
     p.materials.clear();
     for (material const& m : s.materials) {
         typename lacuna::simulation_parameters<Model>::material one;
@@ -109,12 +111,12 @@ lacuna::simulation_parameters<Model> model_parameters(scenario const& s) {
     }
     for (wall const& w : s.walls) {
         lacuna::wall<typename Model::contact_law, dim> one;
-        one.point = to_vec<dim>(w.place);
+        one.point = to_vec<dim>(w.position);
         one.normal = to_vec<dim>(w.normal);
         fill_contact(one.material, w, radius);
         p.walls.push_back(one);
     }
-    p.bonds = s.joints.values;
+    p.bonds = s.bonds.values;
     p.thickness = set.thickness;
     p.mass = set.spheres ? lacuna::mass_model::sphere : lacuna::mass_model::disc;
     p.gravity = to_vec<dim>(set.gravity);
@@ -128,12 +130,12 @@ lacuna::simulation_parameters<Model> model_parameters(scenario const& s) {
     p.guards = set.guards;
     p.threads = set.threads;
     if constexpr (lacuna::has_fluid<Model>)
-        if (s.water) {
-            p.flow = flow_of(*s.water);
+        if (s.fluid) {
+            p.flow = flow_of(*s.fluid);
             p.flow.duration = duration_of(s);
-            if (s.water->remeshing) p.remeshing.rule = lacuna::remesh_rule::when_needed;
-            p.remeshing.interval = s.water->remeshing_interval;
-            p.remeshing.on_broken_bond = s.water->remeshing_on_broken_bond;
+            if (s.fluid->remeshing) p.remeshing.rule = lacuna::remesh_rule::when_needed;
+            p.remeshing.interval = s.fluid->remeshing_interval;
+            p.remeshing.on_broken_bond = s.fluid->remeshing_on_broken_bond;
         }
     return p;
 }

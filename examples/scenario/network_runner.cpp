@@ -29,32 +29,32 @@ class network_runner final : public runner {
     using points = lacuna::points_view<Real, 2>;
 
 public:
-    explicit network_runner(scenario const& s) : scenario_(s), water_(*s.water) {
+    explicit network_runner(scenario const& s) : scenario_(s), fluid_(*s.fluid) {
         journal_.heading = heading_of(s);
-        told_ = statement_of(s);
-        auto p = flow_of(water_);
+        statement_ = statement_of(s);
+        auto p = flow_of(fluid_);
         p.substeps = 1;
-        for (std::size_t k = 0; k < s.bodies.size(); ++k) {
-            position_.push_back(lacuna::convert<Real>(to_vec<2>(s.bodies.position[k])));
-            radius_.push_back(Real(s.bodies.radius[k]));
+        for (std::size_t k = 0; k < s.particles.size(); ++k) {
+            position_.push_back(lacuna::convert<Real>(to_vec<2>(s.particles.position[k])));
+            radius_.push_back(Real(s.particles.radius[k]));
         }
-        if (water_.bare()) {
+        if (fluid_.bare()) {
             std::vector<Real> volumes;
             std::vector<lacuna::bare_throat<Real>> throats;
-            for (bare_pore const& pore : water_.pores) volumes.push_back(Real(pore.volume));
-            for (bare_throat const& t : water_.throats)
+            for (bare_pore const& pore : fluid_.pores) volumes.push_back(Real(pore.volume));
+            for (bare_throat const& t : fluid_.throats)
                 throats.push_back({t.pores[0], t.pores[1], Real(t.length), Real(t.aperture)});
             auto net = lacuna::make_bare_network<Real>(volumes, throats);
-            for (std::size_t k = 0; k < water_.pores.size(); ++k) net.pressure[k] = Real(water_.pores[k].pressure);
-            add_sources(water_, net, points{});
+            for (std::size_t k = 0; k < fluid_.pores.size(); ++k) net.pressure[k] = Real(fluid_.pores[k].pressure);
+            add_sources(fluid_, net, points{});
             flow_.emplace(p, std::move(net));
         } else {
             lacuna::require_apart(where(), [](std::size_t k) { return k; });
-            flow_.emplace(p, make_network(water_, where(), radius_.data()), Real(s.simulation.thickness), where(),
+            flow_.emplace(p, make_network(fluid_, where(), radius_.data()), Real(s.simulation.thickness), where(),
                           radius_.data());
         }
-        for (probe const& one : s.probes) check_place(one, flow_->network());
-        settle_step();
+        for (probe const& one : s.probes) check_location(one, flow_->network());
+        resolve_step();
     }
 
     void restore([[maybe_unused]] std::string const& path) override {
@@ -64,7 +64,7 @@ public:
             auto const content = lacuna::read_checkpoint(path);
             (void)earlier_scenario(path, content.told, scenario_);
             if (content.model != model_text() || content.given != shape_text())
-                throw refusal("checkpoint " + path + ": it is of another network");
+                throw refusal("checkpoint " + path + ": it belongs to another network");
             lacuna::state_reader state(content.state);
             state(*flow_, journal_, step_);
         } catch (std::runtime_error const& bad) {
@@ -77,15 +77,15 @@ public:
     }
 
     bool run(results& out) override {
-        // A run that was stopped before its first step has told its beginning.
-        if (step_ == 0 && journal_.events.bytes == 0) tell(out);
+        // A run that was stopped before its first step has already written its first row and frames.
+        if (step_ == 0 && journal_.events.bytes == 0) write_output(out);
         auto const& set = scenario_.simulation;
         double const left = set.steps ? double(*set.steps - step_) : std::ceil((*set.end_time - time()) / time_step_);
         out.progress().begin(left, flow_->network().pores(), step_);
         while (!is_over() && lacuna::stop_signal() == 0) {
             flow_->advance(Real(time_step_), scenario_.simulation.threads);
             ++step_;
-            tell(out);
+            write_output(out);
             out.progress().passed(step_);
         }
         out.progress().finish();
@@ -94,7 +94,7 @@ public:
 #endif
         return is_over();
     }
-    journal const& told() const override { return journal_; }
+    journal const& log() const override { return journal_; }
     long long steps() const override { return step_; }
     std::string summary(std::string const& ended, std::string const& message) const override {
         run_numbers n;
@@ -111,7 +111,7 @@ public:
 private:
 #ifdef LACUNA_RUN_CHECKPOINTS
     static std::string model_text() { return sizeof(Real) == 4 ? "flow alone, float" : "flow alone, double"; }
-    /// Of what follows from the scenario: the pores and the step.
+    /// The pores and the time step, which follow from the scenario.
     std::string shape_text() const {
         lacuna::state_writer bytes;
         bytes(lacuna::hash_of_shape(flow_->network()), time_step_);
@@ -119,11 +119,11 @@ private:
     }
     void save(results& out, bool regular) {
         out.mark(journal_);
-        if (!regular) out.make_room_for_stop();
+        if (!regular) out.set_regular_checkpoint_aside();
         lacuna::state_writer state;
         state(*flow_, journal_, step_);
-        lacuna::write_checkpoint(out.file("checkpoint.bin"), {model_text(), shape_text(), state.bytes(), told_});
-        if (regular) out.checkpoint_is_regular();
+        lacuna::write_checkpoint(out.file("checkpoint.bin"), {model_text(), shape_text(), state.bytes(), statement_});
+        if (regular) out.regular_checkpoint_written();
     }
 #endif
     points where() const { return lacuna::view_points(position_); }
@@ -133,23 +133,23 @@ private:
         return set.steps ? step_ >= *set.steps : time() >= *set.end_time * (1 - 1e-12);
     }
 
-    void settle_step() {
+    void resolve_step() {
         auto const& set = scenario_.simulation;
-        critical_ = double(lacuna::flow_critical_time_step(flow_->network(), water_.bulk_modulus));
-        double const given = water_.time_step > 0 ? water_.time_step : set.time_step;
-        std::string const key = water_.time_step > 0 ? "fluid.time_step" : "simulation.time_step";
+        critical_ = double(lacuna::flow_critical_time_step(flow_->network(), fluid_.bulk_modulus));
+        double const given = fluid_.time_step > 0 ? fluid_.time_step : set.time_step;
+        std::string const key = fluid_.time_step > 0 ? "fluid.time_step" : "simulation.time_step";
         if (given > 0) {
-            if (!water_.implicit && !set.allow_unstable_step && !(given <= critical_))
+            if (!fluid_.implicit && !set.allow_unstable_step && !(given <= critical_))
                 refuse(key, lacuna::to_text(given),
                        "at most the stable limit " + lacuna::to_text(critical_) + " s of the flow, or allow_unstable_step");
             time_step_ = given;
         } else {
-            if (!std::isfinite(critical_)) refuse(key, "\"auto\"", "a number of seconds: nothing flows here");
+            if (!std::isfinite(critical_)) refuse(key, "\"auto\"", "a number of seconds: no throat conducts fluid");
             time_step_ = set.safety * critical_;
         }
     }
 
-    void tell(results& out) {
+    void write_output(results& out) {
         bool any = false;
         for (probe const& p : scenario_.probes) any = any || step_ % p.every == 0;
         if (any) {
@@ -161,10 +161,10 @@ private:
             out.add_row(row + "\n");
         }
         auto const due = [&](long long every) { return every > 0 && step_ % every == 0; };
-        if (due(scenario_.out.vtk_every)) write_vtk(out, frame(), scenario_, journal_);
-        if (due(scenario_.out.picture_every)) write_picture(out, frame(), scenario_, journal_);
+        if (due(scenario_.output.vtk_every)) write_vtk(out, frame(), scenario_, journal_);
+        if (due(scenario_.output.picture_every)) write_picture(out, frame(), scenario_, journal_);
 #ifdef LACUNA_RUN_CHECKPOINTS
-        if (step_ > 0 && due(scenario_.out.checkpoint_every)) save(out, true);
+        if (step_ > 0 && due(scenario_.output.checkpoint_every)) save(out, true);
 #endif
     }
 
@@ -173,7 +173,7 @@ private:
         case quantity::pore_pressure:
         case quantity::pore_volume:
         case quantity::throat_flow: return read_of_pores(p, flow_->network(), where());
-        case quantity::position: return scenario_.bodies.position[std::size_t(p.index)][std::size_t(p.axis)];
+        case quantity::position: return scenario_.particles.position[std::size_t(p.index)][std::size_t(p.axis)];
         case quantity::fluid_energy: {
             auto const& l = flow_->ledger();
             return double(flow_->storage_energy() + l.dissipation - l.reservoir_work);
@@ -186,9 +186,9 @@ private:
         frame_data f;
         f.step = step_;
         f.time = time();
-        f.position = scenario_.bodies.position;
+        f.position = scenario_.particles.position;
         f.velocity.assign(f.position.size(), point{});
-        f.intact.assign(scenario_.joints.pairs.size(), 1);
+        f.intact.assign(scenario_.bonds.pairs.size(), 1);
         struct {
             std::int32_t id(std::size_t k) const { return std::int32_t(k); }
         } const as_given;
@@ -197,12 +197,12 @@ private:
     }
 
     scenario const& scenario_;
-    fluid const& water_;
+    fluid_settings const& fluid_;
     std::vector<lacuna::vec<Real, 2>> position_;
     std::vector<Real> radius_;
     std::optional<solver> flow_;
     journal journal_;
-    std::string told_; ///< what the scenario states
+    std::string statement_; ///< of the scenario, for checkpoints
     double time_step_ = 0, critical_ = 0;
     long long step_ = 0;
 };

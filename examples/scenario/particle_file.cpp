@@ -10,7 +10,7 @@ namespace lacuna_run {
 namespace {
 
 template <int Dim>
-void append(lacuna::particle_list<Dim> const& list, particles& to) {
+void append(lacuna::particle_list<Dim> const& list, particle_list& to) {
     auto const put = [](auto const& from, std::vector<point>& numbers) {
         for (auto const& v : from) {
             numbers.push_back({});
@@ -28,7 +28,7 @@ void append(lacuna::particle_list<Dim> const& list, particles& to) {
 } // namespace
 
 void read_particle_file(std::string const& path, std::string const& key, int dimension,
-                        std::vector<material> const& materials, particles& to) {
+                        std::vector<material> const& materials, particle_list& to) {
     std::vector<std::string> names;
     for (material const& m : materials) names.push_back(m.name);
     try {

@@ -26,7 +26,7 @@
 
 namespace lacuna_run {
 
-/// The models that a scenario can name.
+/// The model of a scenario with these laws.
 template <int Dim, class Real, class Contact, class Bond>
 struct run_model : lacuna::default_model<Dim, Real> {
     using contact_law = Contact;
@@ -44,51 +44,51 @@ class particle_runner : public runner {
 public:
     using simulation = lacuna::simulation<Model>;
 
-    explicit particle_runner(scenario const& s) : scenario_(s), told_(statement_of(s)) {
+    explicit particle_runner(scenario const& s) : scenario_(s), statement_(statement_of(s)) {
         journal_.heading = heading_of(s);
         build(model_parameters<Model>(s));
         if constexpr (lacuna::has_fluid<Model>) {
             auto p = model_parameters<Model>(s);
-            if (s.water && !std::isfinite(p.flow.duration)) {
-                // How long so many steps are follows from the step of the particles.
-                p.flow.duration = std::max(1.0, double(*s.simulation.steps)) * settled_step();
+            if (s.fluid && !std::isfinite(p.flow.duration)) {
+                // The length of the run in s follows from the particles' time step, which is known only now.
+                p.flow.duration = std::max(1.0, double(*s.simulation.steps)) * resolved_step();
                 build(p);
             }
-            if (s.water && s.water->time_step > 0) {
-                // How many flow steps a step takes, or how many steps a flow step, too.
-                double const ratio = settled_step() / s.water->time_step;
+            if (s.fluid && s.fluid->time_step > 0) {
+                // The number of flow steps per particle step, or of particle steps per flow step, likewise.
+                double const ratio = resolved_step() / s.fluid->time_step;
                 if (!(ratio <= 1e6 && ratio >= 1e-6))
-                    refuse("fluid.time_step", lacuna::to_text(s.water->time_step),
-                           "within 1e6 times the particles' step, " + lacuna::to_text(settled_step()) + " s");
+                    refuse("fluid.time_step", lacuna::to_text(s.fluid->time_step),
+                           "from 1e-6 to 1e6 times the particles' step of " + lacuna::to_text(resolved_step()) + " s");
                 p.flow.substeps = std::max(1, int(std::ceil(ratio * (1 - 1e-9))));
                 p.flow.interval = std::max(1, int(std::floor(1 / ratio * (1 + 1e-9))));
                 build(p);
             }
         }
-        check_flow_step(settled_step());
+        check_flow_step(resolved_step());
         for (probe const& p : s.probes)
-            if constexpr (lacuna::has_fluid<Model>) check_place(p, sim_->flow().network());
+            if constexpr (lacuna::has_fluid<Model>) check_location(p, sim_->flow().network());
     }
 
     void restore(std::string const& path) override;
     bool run(results& out) override;
-    journal const& told() const override { return journal_; }
+    journal const& log() const override { return journal_; }
     long long steps() const override { return sim_->steps(); }
     std::string summary(std::string const& ended, std::string const& message) const override;
-    /// What runs, to be looked at.
+    /// The simulation, for inspection.
     simulation const& simulated() const noexcept { return *sim_; }
 
 private:
-    /// Tells what a run does, step by step.
-    class watcher;
+    /// The observer that writes rows, frames and checkpoints.
+    class recorder;
 
-    /// What acts on a particle from outside, of all loads together.
+    /// The sum of all loads on one particle, N and N m, and its prescribed velocity, m/s.
     struct drive {
         vector force{};
         lacuna::vec<double, lacuna::rotation_dim<dim>> torque{};
         double load_ramp = 0, velocity_ramp = 0;
         bool loaded = false;
-        std::optional<vector> velocity; ///< prescribed
+        std::optional<vector> velocity; ///< if prescribed
     };
     static std::vector<drive> drives_of(scenario const& s);
     static std::vector<lacuna::fixed_axes> held_axes(scenario const& s);
@@ -98,10 +98,10 @@ private:
     void build(lacuna::simulation_parameters<Model> const& p);
     void set_up();
     void fill();
-    void drive_on(scenario const& before);
-    double settled_step();
+    void resume_drives(scenario const& before);
+    double resolved_step();
     void check_flow_step(double step) const;
-    void tell_row(results& out);
+    void write_row(results& out);
     void save(results& out, bool regular);
     double read(probe const& p) const;
     double read_of_particle(probe const& p) const;
@@ -114,7 +114,7 @@ private:
     frame_data frame() const;
 
     scenario const& scenario_;
-    std::string const told_; ///< what the scenario states
+    std::string const statement_; ///< of the scenario, for checkpoints
     std::optional<simulation> sim_;
     journal journal_;
 };
@@ -122,11 +122,11 @@ private:
 template <class Model>
 lacuna::packing<typename Model::real, particle_runner<Model>::dim> particle_runner<Model>::packing_of() const {
     lacuna::packing<typename Model::real, dim> packing;
-    for (std::size_t k = 0; k < scenario_.bodies.size(); ++k)
-        packing.add(lacuna::convert<typename Model::real>(to_vec<dim>(scenario_.bodies.position[k])),
-                    typename Model::real(scenario_.bodies.radius[k]), scenario_.bodies.material[k]);
-    packing.density = scenario_.bodies.density;
-    packing.bonds.assign(scenario_.joints.pairs.begin(), scenario_.joints.pairs.end());
+    for (std::size_t k = 0; k < scenario_.particles.size(); ++k)
+        packing.add(lacuna::convert<typename Model::real>(to_vec<dim>(scenario_.particles.position[k])),
+                    typename Model::real(scenario_.particles.radius[k]), scenario_.particles.material[k]);
+    packing.density = scenario_.particles.density;
+    packing.bonds.assign(scenario_.bonds.pairs.begin(), scenario_.bonds.pairs.end());
     return packing;
 }
 
@@ -140,9 +140,9 @@ template <class Model>
 void particle_runner<Model>::set_up() {
     auto const& s = scenario_;
     auto const held = held_axes(s);
-    for (std::size_t k = 0; k < s.bodies.size(); ++k) {
-        if (s.bodies.velocity[k] != point{}) sim_->set_velocity(k, to_vec<dim>(s.bodies.velocity[k]));
-        if (s.bodies.spin[k] != point{}) sim_->set_spin(k, to_vec<lacuna::rotation_dim<dim>>(s.bodies.spin[k]));
+    for (std::size_t k = 0; k < s.particles.size(); ++k) {
+        if (s.particles.velocity[k] != point{}) sim_->set_velocity(k, to_vec<dim>(s.particles.velocity[k]));
+        if (s.particles.spin[k] != point{}) sim_->set_spin(k, to_vec<lacuna::rotation_dim<dim>>(s.particles.spin[k]));
         sim_->fix(k, held[k]);
     }
     auto const drives = drives_of(s);
@@ -158,15 +158,15 @@ template <class Model>
 void particle_runner<Model>::fill() {
     if constexpr (lacuna::has_fluid<Model>)
         sim_->fill_pores([&](auto points, auto const* radii) {
-            return scenario_.water ? make_network(*scenario_.water, points, radii)
+            return scenario_.fluid ? make_network(*scenario_.fluid, points, radii)
                                    : lacuna::pore_network<typename Model::real, 2>{};
         });
 }
 
 template <class Model>
 std::vector<lacuna::fixed_axes> particle_runner<Model>::held_axes(scenario const& s) {
-    std::vector<lacuna::fixed_axes> held(s.bodies.size());
-    for (fixed const& f : s.bodies.fix)
+    std::vector<lacuna::fixed_axes> held(s.particles.size());
+    for (fixed const& f : s.particles.fix)
         for (auto const id : f.particles) {
             auto& h = held[std::size_t(id)];
             h = {h.x || f.x, h.y || f.y, h.z || f.z, h.rotation || f.rotation};
@@ -176,7 +176,7 @@ std::vector<lacuna::fixed_axes> particle_runner<Model>::held_axes(scenario const
 
 template <class Model>
 auto particle_runner<Model>::drives_of(scenario const& s) -> std::vector<drive> {
-    std::vector<drive> all(s.bodies.size());
+    std::vector<drive> all(s.particles.size());
     auto const add = [&](std::int32_t id, point const& force, point const& torque, load const& l, std::size_t number) {
         drive& d = all[std::size_t(id)];
         if (d.loaded && d.load_ramp != l.ramp_time)
@@ -197,26 +197,26 @@ auto particle_runner<Model>::drives_of(scenario const& s) -> std::vector<drive> 
         } else if (l.what == load::kind::force) {
             for (auto const id : l.particles) add(id, l.force, l.torque, l, n);
         } else {
-            auto const row = row_on_side(s.bodies, l.where, l.margin_diameters * 2 * mean_radius(s.bodies));
+            auto const row = row_on_side(s.particles, l.where, l.margin_diameters * 2 * mean_radius(s.particles));
             if (row.empty())
                 refuse("loads[" + std::to_string(n) + "].margin_diameters", lacuna::to_text(l.margin_diameters),
                        "small enough to leave particles to load");
             constexpr double inward[4][2] = {{0, -1}, {0, 1}, {1, 0}, {-1, 0}};
-            auto const& way = inward[int(l.where)];
+            auto const& direction = inward[int(l.where)];
             for (auto const id : row) {
-                double const force = lacuna::traction_force(l.pressure, s.bodies.radius[std::size_t(id)],
+                double const force = lacuna::traction_force(l.pressure, s.particles.radius[std::size_t(id)],
                                                             s.simulation.thickness,
                                                             l.disc_area ? lacuna::traction_area::disc : lacuna::traction_area::strip);
-                add(id, {force * way[0], force * way[1]}, {}, l, n);
+                add(id, {force * direction[0], force * direction[1]}, {}, l, n);
             }
         }
     }
     return all;
 }
 
-/// From a checkpoint on: what is driven as before is left to its ramp, anything else changes from how it is then.
+/// Applies the loads of a resumed run. An unchanged load keeps its ramp; a changed load starts from the present one.
 template <class Model>
-void particle_runner<Model>::drive_on(scenario const& before) {
+void particle_runner<Model>::resume_drives(scenario const& before) {
     auto const held = held_axes(scenario_);
     auto const old = drives_of(before), now = drives_of(scenario_);
     for (std::size_t k = 0; k < now.size(); ++k) {
@@ -233,25 +233,25 @@ void particle_runner<Model>::drive_on(scenario const& before) {
 }
 
 template <class Model>
-double particle_runner<Model>::settled_step() {
+double particle_runner<Model>::resolved_step() {
     try {
         return sim_->resolve_time_step();
     } catch (std::invalid_argument const& bad) {
         if (!(scenario_.simulation.time_step > 0) && std::string_view(bad.what()).find("without any stiffness") != std::string_view::npos)
-            refuse("simulation.time_step", "\"auto\"", "a number of seconds: nothing here has a stiffness to take it from");
+            refuse("simulation.time_step", "\"auto\"", "a number of seconds: nothing here has a stiffness");
         throw refusal("simulation." + std::string(bad.what()));
     }
 }
 
-/// A step that takes more flow steps than can be made is not begun.
+/// \throws refusal if a particle step needs more explicit flow steps than the solver allows
 template <class Model>
 void particle_runner<Model>::check_flow_step([[maybe_unused]] double step) const {
     if constexpr (lacuna::has_fluid<Model>) {
-        auto const& water = scenario_.water;
-        // Of merged pores the flow solver knows the limit, once it has made a step.
-        if (!water || water->implicit || water->time_step > 0 || water->merge_conductance) return;
+        auto const& fluid = scenario_.fluid;
+        // The limit of merged pores is known only after the first step of the flow solver.
+        if (!fluid || fluid->implicit || fluid->time_step > 0 || fluid->merge_conductance) return;
         constexpr int most = lacuna::explicit_flow_solver<typename Model::real, 2, chosen_aperture>::most_substeps;
-        double const limit = double(lacuna::flow_critical_time_step(sim_->flow().network(), water->bulk_modulus));
+        double const limit = double(lacuna::flow_critical_time_step(sim_->flow().network(), fluid->bulk_modulus));
         if (step <= most / 1.01 * limit) return;
         refuse("fluid.solver", "\"explicit\"",
                "\"implicit\": the stable limit of the explicit flow is " + lacuna::to_text(limit) + " s, and the particles' step of " +
@@ -260,12 +260,12 @@ void particle_runner<Model>::check_flow_step([[maybe_unused]] double step) const
 }
 
 template <class Model>
-class particle_runner<Model>::watcher {
+class particle_runner<Model>::recorder {
 public:
     static constexpr lacuna::stage stages = lacuna::stage::step | lacuna::stage::breakage;
     static constexpr bool needs_energy = true;
 
-    watcher(particle_runner& run, results& out) : run_(run), out_(out) {}
+    recorder(particle_runner& run, results& out) : run_(run), out_(out) {}
 
     void on_break(lacuna::break_event<dim> const& e, simulation const& sim) {
         break_line line;
@@ -274,10 +274,10 @@ public:
         line.bond = e.bond;
         line.particles = {e.particles[0], e.particles[1]};
         line.shear = e.mode == lacuna::bond_state::broken_in_shear;
-        auto const way = sim.position(std::size_t(e.particles[1])) - sim.position(std::size_t(e.particles[0]));
+        auto const direction = sim.position(std::size_t(e.particles[1])) - sim.position(std::size_t(e.particles[0]));
         for (int axis = 0; axis < dim; ++axis) {
             line.position[std::size_t(axis)] = e.position[axis];
-            line.direction[std::size_t(axis)] = way[axis];
+            line.direction[std::size_t(axis)] = direction[axis];
         }
         line.normal_force = e.normal_force;
         line.shear_force = e.shear_force;
@@ -286,9 +286,9 @@ public:
         out_.add_break(line);
     }
     lacuna::run_control on_step(simulation const& sim) {
-        run_.tell_row(out_);
+        run_.write_row(out_);
         out_.progress().passed(sim.steps());
-        auto const& o = run_.scenario_.out;
+        auto const& o = run_.scenario_.output;
         auto const due = [&](long long every) { return every > 0 && sim.steps() % every == 0; };
         if (due(o.vtk_every)) write_vtk(out_, run_.frame(), run_.scenario_, run_.journal_);
         if (due(o.picture_every)) write_picture(out_, run_.frame(), run_.scenario_, run_.journal_);
@@ -305,14 +305,14 @@ private:
 
 template <class Model>
 bool particle_runner<Model>::run(results& out) {
-    auto const& o = scenario_.out;
-    // A run that was stopped before its first step has told its beginning.
+    auto const& o = scenario_.output;
+    // A run that was stopped before its first step has already written its first row and frames.
     if (sim_->steps() == 0 && journal_.events.bytes == 0) {
-        tell_row(out);
+        write_row(out);
         if (o.vtk_every > 0) write_vtk(out, frame(), scenario_, journal_);
         if (o.picture_every > 0) write_picture(out, frame(), scenario_, journal_);
     }
-    watcher watch(*this, out);
+    recorder watch(*this, out);
     auto const& set = scenario_.simulation;
     auto const left = [&] {
         return set.steps ? double(*set.steps - sim_->steps()) : std::ceil((*set.end_time - sim_->time()) / sim_->time_step());
@@ -322,7 +322,7 @@ bool particle_runner<Model>::run(results& out) {
         try {
             sim_->run(std::max(1LL, (long long)(std::min(left(), 1e15))), watch);
         } catch (lacuna::unstable_run const&) {
-            // The step that was not finished may have broken bonds.
+            // The unfinished step may have broken bonds that no observer has seen.
             for (auto const& e : sim_->events())
                 if (e.step == sim_->steps()) watch.on_break(e, *sim_);
             throw;
@@ -339,11 +339,11 @@ bool particle_runner<Model>::run(results& out) {
 template <class Model>
 void particle_runner<Model>::save(results& out, bool regular) {
     out.mark(journal_);
-    if (!regular) out.make_room_for_stop();
+    if (!regular) out.set_regular_checkpoint_aside();
     auto content = lacuna::checkpoint_of(*sim_, journal_);
-    content.told = told_;
+    content.told = statement_;
     lacuna::write_checkpoint(out.file("checkpoint.bin"), content);
-    if (regular) out.checkpoint_is_regular();
+    if (regular) out.regular_checkpoint_written();
 }
 #endif
 
@@ -354,12 +354,12 @@ void particle_runner<Model>::restore([[maybe_unused]] std::string const& path) {
     try {
         auto const content = lacuna::read_checkpoint(path);
         scenario const before = earlier_scenario(path, content.told, scenario_);
-        // Without anything said to it, it takes what the checkpoint has.
+        // A simulation without loads takes all loads from the checkpoint.
         auto const p = sim_->settings();
         sim_.emplace(packing_of(), p);
         fill();
         lacuna::resume_from(content, path, *sim_, journal_);
-        drive_on(before);
+        resume_drives(before);
     } catch (lacuna::checkpoint_error const& bad) {
         throw refusal(bad.what());
     }
@@ -370,7 +370,7 @@ void particle_runner<Model>::restore([[maybe_unused]] std::string const& path) {
 }
 
 template <class Model>
-void particle_runner<Model>::tell_row(results& out) {
+void particle_runner<Model>::write_row(results& out) {
     bool due = false;
     for (probe const& p : scenario_.probes) due = due || sim_->steps() % p.every == 0;
     if (!due) return;
@@ -436,7 +436,7 @@ double particle_runner<Model>::read_of_particle(probe const& p) const {
         else
             return p.axis < 0 ? v[0] : v[p.axis];
     };
-    // Under velocity Verlet a velocity belongs to the time of the position: half a kick from the one that is stored.
+    // The stored velocity is half a step behind the position; with velocity Verlet both belong to the same time.
     double const half = scenario_.simulation.velocity_verlet && sim_->steps() > 0 ? 0.5 * sim_->time_step() : 0;
     auto const& store = sim_->particles();
     auto const k = std::size_t(store.internal(id));
@@ -459,7 +459,7 @@ double particle_runner<Model>::read_of_particle(probe const& p) const {
         if constexpr (dim == 2) {
             return double(store.bodies().at(k, 2)) / sim_->radius(id);
         } else {
-            // The rotation vector of a unit quaternion.
+            // Convert the unit quaternion to a rotation vector.
             auto const q = sim_->orientation(id);
             vector const axis{q[1], q[2], q[3]};
             double const sine = norm(axis);

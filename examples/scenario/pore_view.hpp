@@ -15,7 +15,7 @@
 #include "summary.hpp"
 
 /// \file
-/// The pore networks of scenarios: how they are made, and what probes and files see of them.
+/// Pore networks of scenarios: construction, and the values for probes and files.
 
 namespace lacuna_run {
 
@@ -26,28 +26,28 @@ struct any_throat {
     }
 };
 
-/// \throws refusal for a pore that the network does not have
+/// \throws refusal for a pore number that does not exist in the network
 template <class Network>
-void check_pore(pore_place const& place, Network const& net, std::string const& path) {
-    if (!place.near && std::size_t(place.pore) >= net.pores())
-        refuse(path, std::to_string(place.pore), "from 0 to " + std::to_string(net.pores() - 1) + ", the last of the pores");
+void check_pore(pore_location const& location, Network const& net, std::string const& path) {
+    if (!location.near && std::size_t(location.pore) >= net.pores())
+        refuse(path, std::to_string(location.pore), "from 0 to " + std::to_string(net.pores() - 1) + ", the last of the pores");
 }
 template <class Network>
-void check_place(probe const& p, Network const& net) {
+void check_location(probe const& p, Network const& net) {
     bool const of_pores = p.what == quantity::pore_pressure || p.what == quantity::pore_volume || p.what == quantity::throat_flow;
     if (of_pores && p.throat < 0) check_pore(p.where, net, "the pore of probe " + p.column);
 }
 
 template <class Real>
-std::size_t pore_at(pore_place const& place, lacuna::pore_network<Real, 2> const& net,
+std::size_t pore_at(pore_location const& location, lacuna::pore_network<Real, 2> const& net,
                     lacuna::points_view<Real, 2> points) {
-    if (!place.near) return std::size_t(place.pore);
-    return lacuna::find_pore(net, points, lacuna::vec<Real, 2>{Real((*place.near)[0]), Real((*place.near)[1])});
+    if (!location.near) return std::size_t(location.pore);
+    return lacuna::find_pore(net, points, lacuna::vec<Real, 2>{Real((*location.near)[0]), Real((*location.near)[1])});
 }
 
-/// Reservoirs and sources at pores.
+/// Adds the reservoirs and sources of the scenario to a network.
 template <class Real>
-void add_sources(fluid const& f, lacuna::pore_network<Real, 2>& net, lacuna::points_view<Real, 2> points) {
+void add_sources(fluid_settings const& f, lacuna::pore_network<Real, 2>& net, lacuna::points_view<Real, 2> points) {
     for (std::size_t r = 0; r < f.reservoirs.size(); ++r) {
         std::string const name = "reservoirs[" + std::to_string(r) + "]";
         check_pore(f.reservoirs[r].where, net, "fluid." + name + ".pore");
@@ -60,9 +60,9 @@ void add_sources(fluid const& f, lacuna::pore_network<Real, 2>& net, lacuna::poi
     }
 }
 
-/// The network between particles. \throws std::invalid_argument
+/// Makes the network between particles. \throws std::invalid_argument if there are no pores
 template <class Real>
-lacuna::pore_network<Real, 2> make_network(fluid const& f, lacuna::points_view<Real, 2> points, Real const* radii) {
+lacuna::pore_network<Real, 2> make_network(fluid_settings const& f, lacuna::points_view<Real, 2> points, Real const* radii) {
     auto const mesh = lacuna::triangulate_body(points, radii);
     if (mesh.size() == 0) lacuna::refuse_no_pores(points, radii);
     auto net = f.drained ? lacuna::make_pore_network(
@@ -73,7 +73,7 @@ lacuna::pore_network<Real, 2> make_network(fluid const& f, lacuna::points_view<R
     return net;
 }
 
-/// A probe of pores or throats.
+/// The value of a probe of pores or throats: Pa, m^3 or m^3/s.
 template <class Real>
 double read_of_pores(probe const& p, lacuna::pore_network<Real, 2> const& net, lacuna::points_view<Real, 2> points) {
     if (p.what != quantity::throat_flow) {
@@ -82,7 +82,7 @@ double read_of_pores(probe const& p, lacuna::pore_network<Real, 2> const& net, l
     }
     if (p.throat >= 0) return double(net.flow[std::size_t(p.throat)]);
     if (p.where.near) {
-        // Of the throat whose middle is nearest; positive from the pore on its right to the one on its left.
+        // The throat with the nearest middle. Flow is positive from the pore on its right to the pore on its left.
         std::size_t nearest = 0;
         double least = std::numeric_limits<double>::infinity();
         for (std::size_t t = 0; t < net.throats(); ++t) {
@@ -105,7 +105,7 @@ double read_of_pores(probe const& p, lacuna::pore_network<Real, 2> const& net, l
     return into;
 }
 
-/// Pores and sources, for summary.json.
+/// Adds pores and sources for summary.json.
 template <class Real>
 void add_pores(run_numbers& n, lacuna::pore_network<Real, 2> const& net, lacuna::points_view<Real, 2> points) {
     for (std::size_t p = 0; p < net.pores(); ++p) {
@@ -119,7 +119,7 @@ void add_pores(run_numbers& n, lacuna::pore_network<Real, 2> const& net, lacuna:
     for (auto const& source : net.sources) n.sources.push_back({source.name, source.volume, source.rate});
 }
 
-/// Pores as triangles of particles by their ids, for pictures and VTK.
+/// Adds the pores for pictures and VTK: triangles of particle ids.
 template <class Real, class Store>
 void add_pores(frame_data& f, lacuna::pore_network<Real, 2> const& net, Store const& store) {
     for (std::size_t p = 0; p < net.pores(); ++p) {

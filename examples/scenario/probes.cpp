@@ -31,29 +31,29 @@ quantity_row const& find_entry(value const& from, int dimension, int& axis) {
     from.refuse("a known quantity" + did_you_mean(name, known));
 }
 
-/// Where in the pore network, from `pore` or `near`.
-std::string read_pore(table const& t, fluid const& water, pore_place& place) {
+/// Reads a pore from `pore` or `near`. \return its label in the column's heading
+std::string read_pore(table const& t, fluid_settings const& fluid, pore_location& location) {
     if (t.has("near")) {
-        place.near = t["near"].vector(2);
-        return lacuna::to_text((*place.near)[0]) + ";" + lacuna::to_text((*place.near)[1]);
+        location.near = t["near"].vector(2);
+        return lacuna::to_text((*location.near)[0]) + ";" + lacuna::to_text((*location.near)[1]);
     }
-    // How many pores a triangulation has is known only when it is made; then the number is checked again.
-    place.pore = t["pore"].index(water.bare() ? water.pores.size() : std::size_t(2147483647), "pores");
-    return std::to_string(place.pore);
+    // The number of pores is known only after the triangulation; the index is checked again then.
+    location.pore = t["pore"].index(fluid.bare() ? fluid.pores.size() : std::size_t(2147483647), "pores");
+    return std::to_string(location.pore);
 }
 
-/// What a run of this kind has something to tell about. \throws refusal
-void require_told(quantity_row const& e, value const& from, scenario const& s) {
+/// \throws refusal for a quantity that does not exist in this kind of run
+void require_available(quantity_row const& e, value const& from, scenario const& s) {
     bool const flow = e.of == subject::pore || e.of == subject::throat || e.what == quantity::fluid_energy;
-    if (s.flow_alone() && s.water->bare() && !flow) from.refuse("one of pores, throats or energy.fluid: there are no particles");
+    if (s.flow_alone() && s.fluid->bare() && !flow) from.refuse("one of pores, throats or energy.fluid: there are no particles");
     if (s.flow_alone() && !flow && e.what != quantity::position)
         from.refuse("left out: fluid.mechanical_coupling is false, particles do not move");
-    if (!s.water && flow) from.refuse("left out: there is no fluid");
+    if (!s.fluid && flow) from.refuse("left out: there is no fluid");
     bool const of_contacts = e.of == subject::contact || e.what == quantity::contacts || e.what == quantity::friction;
     if (of_contacts && s.simulation.contact == contact_law::none) from.refuse("left out: contact_law is \"none\"");
     bool const of_failure =
         e.what == quantity::broken_tension || e.what == quantity::broken_shear || e.what == quantity::fracture;
-    if (of_failure && s.joints.pairs.empty()) from.refuse("left out: there are no bonds");
+    if (of_failure && s.bonds.pairs.empty()) from.refuse("left out: there are no bonds");
 }
 
 } // namespace
@@ -83,7 +83,7 @@ probe read_probe(value const& from, scenario const& s) {
         for (char const* key : {"particle", "bond", "pair", "pore", "near", "throat", "wall"}) {
             bool wanted = false;
             for (char const* one : wanted_keys) wanted = wanted || std::strcmp(one, key) == 0;
-            if (!wanted) t.must_be_left_out(key, p.name + " has none");
+            if (!wanted) t.must_be_left_out(key, "it does not apply to " + p.name);
         }
     };
     std::string label;
@@ -92,32 +92,32 @@ probe read_probe(value const& from, scenario const& s) {
         p.index = t[key].index(count, of);
         label = std::to_string(p.index);
     };
-    require_told(e, t["quantity"], s);
+    require_available(e, t["quantity"], s);
     switch (e.of) {
-    case subject::particle: number("particle", s.bodies.size(), "particles"); break;
-    case subject::bond: number("bond", s.joints.pairs.size(), "bonds"); break;
+    case subject::particle: number("particle", s.particles.size(), "particles"); break;
+    case subject::bond: number("bond", s.bonds.pairs.size(), "bonds"); break;
     case subject::wall: number("wall", s.walls.size(), "walls"); break;
     case subject::contact: {
         only({"pair"});
         value const both = t["pair"];
         auto const ends = both.list();
         if (ends.size() != 2) both.refuse("two particles");
-        for (std::size_t k = 0; k < 2; ++k) p.particles[k] = ends[k].index(s.bodies.size(), "particles");
+        for (std::size_t k = 0; k < 2; ++k) p.particles[k] = ends[k].index(s.particles.size(), "particles");
         if (p.particles[0] == p.particles[1]) both.refuse("two different particles");
         label = std::to_string(p.particles[0]) + "-" + std::to_string(p.particles[1]);
         break;
     }
     case subject::pore:
         only({"pore", "near"});
-        label = read_pore(t, *s.water, p.where);
+        label = read_pore(t, *s.fluid, p.where);
         break;
     case subject::throat:
         only({"pore", "near", "throat"});
         if (t.has("throat")) {
-            p.throat = t["throat"].index(s.water->throats.size(), "throats");
+            p.throat = t["throat"].index(s.fluid->throats.size(), "throats");
             label = "throat " + std::to_string(p.throat);
         } else {
-            label = read_pore(t, *s.water, p.where);
+            label = read_pore(t, *s.fluid, p.where);
         }
         break;
     case subject::whole: only({}); break;

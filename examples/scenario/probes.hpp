@@ -10,11 +10,15 @@ namespace lacuna_run {
 
 struct value;
 
-/// What a quantity is a quantity of: the key that says which one.
+/// The kind of object that a quantity belongs to. A key selects the object.
 enum class subject { particle, bond, contact, pore, throat, wall, whole };
 
-/// Whether a quantity has a component, written as .x, .y, .z.
-enum class parts { none, needed, in_space };
+/// Whether the name of a quantity has a component .x, .y or .z.
+enum class parts {
+    none,    ///< never
+    needed,  ///< always
+    in_space ///< optional in space: without it the magnitude; never in the plane
+};
 
 /// One quantity that a probe can read.
 struct quantity_row {
@@ -31,7 +35,7 @@ inline constexpr quantity_row quantities[] = {
     {"velocity", quantity::velocity, subject::particle, parts::needed, "m/s", ""},
     {"spin", quantity::spin, subject::particle, parts::in_space, "rad/s", "in 3D the magnitude, or a component"},
     {"rotation", quantity::rotation, subject::particle, parts::in_space, "rad", "in 3D the magnitude, or a component"},
-    {"force", quantity::force, subject::particle, parts::needed, "N", "sum of all at the last evaluation, loads and gravity too"},
+    {"force", quantity::force, subject::particle, parts::needed, "N", "total force at the last evaluation, with loads and gravity"},
     {"torque", quantity::torque, subject::particle, parts::in_space, "N m", "in 3D the magnitude, or a component"},
     {"bond.normal_force", quantity::bond_normal_force, subject::bond, parts::none, "N", "positive in tension; 0 once broken"},
     {"bond.shear_force", quantity::bond_shear_force, subject::bond, parts::none, "N", "0 once broken"},
@@ -41,8 +45,8 @@ inline constexpr quantity_row quantities[] = {
     {"pore.pressure", quantity::pore_pressure, subject::pore, parts::none, "Pa", ""},
     {"pore.volume", quantity::pore_volume, subject::pore, parts::none, "m^3", ""},
     {"throat.flow", quantity::throat_flow, subject::throat, parts::none, "m^3/s",
-     "the throat nearest to a point; the sum into a pore; a throat of a bare network"},
-    {"wall.force", quantity::wall_force, subject::wall, parts::needed, "N", "of the particles on the wall"},
+     "of the throat nearest to a point; the total into a pore; of a throat of a bare network"},
+    {"wall.force", quantity::wall_force, subject::wall, parts::needed, "N", "total force of the particles on the wall"},
     {"energy.kinetic", quantity::kinetic, subject::whole, parts::none, "J", ""},
     {"energy.strain", quantity::strain, subject::whole, parts::none, "J", ""},
     {"energy.friction", quantity::friction, subject::whole, parts::none, "J", ""},
@@ -53,13 +57,13 @@ inline constexpr quantity_row quantities[] = {
     {"energy.residual", quantity::residual, subject::whole, parts::none, "J", ""},
     {"count.broken_tension", quantity::broken_tension, subject::whole, parts::none, "", ""},
     {"count.broken_shear", quantity::broken_shear, subject::whole, parts::none, "", ""},
-    {"count.contacts", quantity::contacts, subject::whole, parts::none, "", "those with a force"},
+    {"count.contacts", quantity::contacts, subject::whole, parts::none, "", "contacts with a force"},
 };
 
-/// The keys that say of which one: "particle", "pore or near", ...; "" of the whole.
+/// The keys that select the object: "particle", "pore or near", ...; "" for quantities of the whole simulation.
 char const* key_of(subject of);
 
-/// A probe of a scenario whose other parts have been read. \throws refusal
+/// Reads a probe. All other parts of the scenario must have been read before. \throws refusal
 probe read_probe(value const& from, scenario const& s);
 
 } // namespace lacuna_run

@@ -55,9 +55,9 @@ settings read_settings(value const& from) {
     return s;
 }
 
-/// Young's modulus and Poisson's ratio, of Hertzian contacts only.
-template <class Body>
-void read_elasticity(table const& t, Body& to) {
+/// Reads Young's modulus and Poisson's ratio of a material or wall, for Hertzian contacts.
+template <class Solid>
+void read_elasticity(table const& t, Solid& to) {
     to.young_modulus = t.given("young_modulus");
     if (to.young_modulus) to.poisson_ratio = t.number("poisson_ratio");
 }
@@ -67,11 +67,11 @@ std::vector<material> read_materials(value const& from) {
     for (auto const& [key, node] : *from.node->as_table()) {
         material m;
         m.name = std::string(key.str());
-        table const t({&node, from.path + "." + m.name, from.meaning}, "materials.*");
-        m.density = t.number("density"); // 0 of flow alone
+        table const t({&node, from.path + "." + m.name, from.context}, "materials.*");
+        m.density = t.number("density"); // 0 with flow alone
         m.normal_stiffness = t.number("normal_stiffness");
         m.shear_stiffness = t.number("shear_stiffness");
-        // Where they mean nothing; the library asks for a stiffness of every material.
+        // The library requires a stiffness of every material, even of one without contacts and bonds.
         if (m.normal_stiffness == 0) m.normal_stiffness = 1;
         m.friction = t.number("friction");
         m.tensile_strength = t.given("tensile_strength");
@@ -93,13 +93,13 @@ int material_number(value const& v, std::vector<material> const& materials) {
     v.refuse("the name of a material" + did_you_mean(name, known));
 }
 
-/// One value for all particles or one for each.
+/// Reads one value for all or one for each. \param of "particle" or "bond", for messages
 template <class T, class Read>
 std::vector<T> one_or_each(value const& v, std::size_t count, char const* of, Read const& read) {
     if (!v.node->is_array()) return std::vector<T>(count, read(v));
     auto const list = v.list();
     if (list.size() != count)
-        v.refuse("one value or one per " + std::string(of) + ", of which there are " + std::to_string(count) + ", not " +
+        v.refuse("one value or one per " + std::string(of) + ": " + std::to_string(count) + " values, not " +
                  std::to_string(list.size()));
     std::vector<T> found;
     for (value const& one : list) found.push_back(read(one));
@@ -134,15 +134,15 @@ fixed read_fix(value const& from, std::size_t particles, int dimension) {
     return f;
 }
 
-particles read_particles(value const& from, scenario const& all, std::string const& folder) {
+particle_list read_particles(value const& from, scenario const& all, std::string const& folder) {
     table const t(from, "particles");
     settings const& s = all.simulation;
-    particles p;
+    particle_list p;
     if (t.has("file")) {
         value const file = t["file"];
-        if (folder.empty()) file.refuse("left out: no files here");
+        if (folder.empty()) file.refuse("left out: this scenario has no folder");
         read_particle_file((std::filesystem::path(folder) / file.string()).string(), file.path, s.dimension, all.materials, p);
-        // Rigid particles have no material; a file has to name one.
+        // With flow alone a file may still have a column of velocities.
         auto const moves = [](point const& v) { return v != point{}; };
         if (all.flow_alone() && (std::any_of(p.velocity.begin(), p.velocity.end(), moves) ||
                                  std::any_of(p.spin.begin(), p.spin.end(), moves)))
@@ -156,7 +156,7 @@ particles read_particles(value const& from, scenario const& all, std::string con
             p.material = one_or_each<int>(t["material"], p.size(), "particle",
                                           [&](value const& v) { return material_number(v, all.materials); });
         auto const one_per_particle = [&](value const& v, std::size_t count) {
-            if (count != p.size()) v.refuse("one per particle, of which there are " + std::to_string(p.size()));
+            if (count != p.size()) v.refuse("one per particle: " + std::to_string(p.size()) + " values");
         };
         p.velocity.assign(p.size(), point{});
         p.spin.assign(p.size(), point{});
@@ -175,21 +175,22 @@ particles read_particles(value const& from, scenario const& all, std::string con
     return p;
 }
 
-bonds read_bonds(value const& from, scenario const& s) {
+bond_list read_bonds(value const& from, scenario const& s) {
     table const t(from, "bonds");
-    bonds b;
+    bond_list b;
     if (t.flag("touching")) {
-        b.pairs = touching_pairs(s.bodies, s.simulation.dimension, t["gap"]);
+        b.pairs = touching_pairs(s.particles, s.simulation.dimension, t["gap"]);
     } else {
         std::set<pair> seen;
         for (value const& one : t["pairs"].list()) {
             auto const ends = one.list();
             if (ends.size() != 2) one.refuse("two particles");
-            pair const p{ends[0].index(s.bodies.size(), "particles"), ends[1].index(s.bodies.size(), "particles")};
+            pair const p{ends[0].index(s.particles.size(), "particles"), ends[1].index(s.particles.size(), "particles")};
             if (p[0] == p[1]) one.refuse("two different particles");
-            if (!seen.insert({std::min(p[0], p[1]), std::max(p[0], p[1])}).second) one.refuse("a pair that is not there yet");
-            if (s.bodies.position[std::size_t(p[0])] == s.bodies.position[std::size_t(p[1])])
-                one.refuse("two particles that are not at the same place");
+            if (!seen.insert({std::min(p[0], p[1]), std::max(p[0], p[1])}).second)
+                one.refuse("a pair that was not listed before");
+            if (s.particles.position[std::size_t(p[0])] == s.particles.position[std::size_t(p[1])])
+                one.refuse("two particles at different positions");
             b.pairs.push_back(p);
         }
     }
@@ -210,13 +211,13 @@ bonds read_bonds(value const& from, scenario const& s) {
 wall read_wall(value const& from, settings const& s) {
     table const t(from, "walls[]");
     wall w;
-    w.place = t["point"].vector(s.dimension);
+    w.position = t["point"].vector(s.dimension);
     w.normal = t["normal"].vector(s.dimension);
     double const length = std::hypot(w.normal[0], w.normal[1], w.normal[2]);
     if (!(length > 0 && std::isfinite(length))) t["normal"].refuse("a vector of finite length > 0");
     w.normal_stiffness = t.number("normal_stiffness");
     w.shear_stiffness = t.number("shear_stiffness");
-    if (w.normal_stiffness == 0) w.normal_stiffness = 1; // young_modulus is given
+    if (w.normal_stiffness == 0) w.normal_stiffness = 1; // left out because young_modulus is given
     w.friction = t.number("friction");
     read_elasticity(t, w);
     return w;
@@ -235,7 +236,7 @@ load read_load(value const& from, scenario const& s) {
         l.margin_diameters = t.number("margin_diameters");
         return l;
     }
-    l.particles = read_numbers(t["particles"], s.bodies.size());
+    l.particles = read_numbers(t["particles"], s.particles.size());
     if (t.has("velocity")) {
         l.what = load::kind::velocity;
         l.velocity = t.vector("velocity", dimension);
@@ -247,46 +248,47 @@ load read_load(value const& from, scenario const& s) {
     return l;
 }
 
-/// Loads on one particle act together only if they rise together; a prescribed velocity leaves no axis to hold.
+/// Loads on one particle must have the same ramp_time. A particle with a prescribed velocity cannot be held along an
+/// axis.
 void check_loads(scenario const& s) {
-    std::vector<std::int32_t> forced(s.bodies.size(), -1), moved(s.bodies.size(), -1);
+    std::vector<std::int32_t> forced(s.particles.size(), -1), moved(s.particles.size(), -1);
     for (std::size_t n = 0; n < s.loads.size(); ++n) {
         std::string const path = "loads[" + std::to_string(n) + "]";
         for (auto const id : s.loads[n].particles) {
             auto const k = std::size_t(id);
             if (s.loads[n].what == load::kind::velocity) {
                 if (moved[k] >= 0 && std::size_t(moved[k]) != n)
-                    refuse(path + ".particles", std::to_string(id), "a particle whose velocity is not prescribed yet");
+                    refuse(path + ".particles", std::to_string(id), "a particle whose velocity is prescribed only once");
                 moved[k] = std::int32_t(n);
             } else {
                 if (forced[k] >= 0 && s.loads[std::size_t(forced[k])].ramp_time != s.loads[n].ramp_time)
                     refuse(path + ".ramp_time", lacuna::to_text(s.loads[n].ramp_time),
-                           "that of loads[" + std::to_string(forced[k]) + "], which acts on particle " + std::to_string(id) +
-                               " too");
+                           "that of loads[" + std::to_string(forced[k]) + "], which also acts on particle " +
+                               std::to_string(id));
                 forced[k] = std::int32_t(n);
             }
         }
     }
-    for (std::size_t n = 0; n < s.bodies.fix.size(); ++n)
-        for (auto const id : s.bodies.fix[n].particles) {
-            fixed const& f = s.bodies.fix[n];
+    for (std::size_t n = 0; n < s.particles.fix.size(); ++n)
+        for (auto const id : s.particles.fix[n].particles) {
+            fixed const& f = s.particles.fix[n];
             if (moved[std::size_t(id)] >= 0 && (f.x || f.y || f.z))
                 refuse("particles.fix[" + std::to_string(n) + "].axes", "particle " + std::to_string(id),
                        "\"r\" or left out: loads[" + std::to_string(moved[std::size_t(id)]) + "].velocity moves it");
         }
 }
 
-pore_place read_place(table const& t, std::size_t pores, bool bare) {
-    pore_place place;
-    // How many pores a triangulation has is known only when it is made; then the number is checked again.
+pore_location read_location(table const& t, std::size_t pores, bool bare) {
+    pore_location location;
+    // The number of pores is known only after the triangulation; the index is checked again then.
     if (t.has("pore") || bare)
-        place.pore = t["pore"].index(bare ? pores : std::size_t(2147483647), "pores");
+        location.pore = t["pore"].index(bare ? pores : std::size_t(2147483647), "pores");
     else
-        place.near = t["near"].vector(2);
-    return place;
+        location.near = t["near"].vector(2);
+    return location;
 }
 
-void read_network(value const& from, fluid& f) {
+void read_network(value const& from, fluid_settings& f) {
     table const t(from, "fluid.network");
     for (value const& one : t.list("pores")) {
         table const pore(one, "fluid.network.pores[]");
@@ -307,20 +309,20 @@ void read_network(value const& from, fluid& f) {
     }
 }
 
-void read_aperture(value const& from, fluid& f) {
+void read_aperture(value const& from, fluid_settings& f) {
     table const t(from, "fluid.aperture");
     f.constant_aperture = t.word("law") == 1;
     if (f.constant_aperture) {
         f.aperture = t.number("value");
     } else {
         f.aperture = t.number("a0");
-        if (double const given = t.number("F0"); given > 0) f.half_force = given; // 0: without forces it means nothing
+        if (double const given = t.number("F0"); given > 0) f.half_force = given; // 0: there are no forces
         f.gap_factor = t.number("gap_multiplier");
     }
 }
 
-/// A fluid that tears has no pressure below that.
-void check_pressures(table const& t, fluid const& f) {
+/// No given pressure may be below the one at which the fluid tears.
+void check_pressures(table const& t, fluid_settings const& f) {
     if (!f.minimum_pressure) return;
     auto const check = [&](std::string const& path, double pressure) {
         if (pressure < *f.minimum_pressure)
@@ -334,9 +336,9 @@ void check_pressures(table const& t, fluid const& f) {
         check(t.path("network.pores") + "[" + std::to_string(k) + "].pressure", f.initial_pressure + f.pores[k].pressure);
 }
 
-fluid read_fluid(value const& from) {
+fluid_settings read_fluid(value const& from) {
     table const t(from, "fluid");
-    fluid f;
+    fluid_settings f;
     f.bulk_modulus = t.number("bulk_modulus");
     f.conductivity = t.number("conductivity");
     if (t.has("network"))
@@ -350,11 +352,11 @@ fluid read_fluid(value const& from) {
     f.boundary_pressure = t.number("boundary_pressure");
     for (value const& one : t.list("reservoirs")) {
         table const r(one, "fluid.reservoirs[]");
-        f.reservoirs.push_back({read_place(r, f.pores.size(), f.bare()), r.number("pressure")});
+        f.reservoirs.push_back({read_location(r, f.pores.size(), f.bare()), r.number("pressure")});
     }
     for (value const& one : t.list("sources")) {
         table const r(one, "fluid.sources[]");
-        f.sources.push_back({read_place(r, f.pores.size(), f.bare()), r.number("flow")});
+        f.sources.push_back({read_location(r, f.pores.size(), f.bare()), r.number("flow")});
     }
     f.duration = t.given("duration");
     f.minimum_pressure = t.given("minimum_pressure");
@@ -370,9 +372,9 @@ fluid read_fluid(value const& from) {
     return f;
 }
 
-output read_output(value const& from) {
+output_settings read_output(value const& from) {
     table const t(from, "output");
-    output o;
+    output_settings o;
     if (t.has("directory")) {
         o.directory = t["directory"].string();
         if (o.directory.empty() || o.directory.find('\0') != std::string::npos) t["directory"].refuse("the name of a directory");
@@ -384,21 +386,21 @@ output read_output(value const& from) {
 }
 
 scenario read_tables(toml::table const& file, std::string const& folder) {
-    auto const meaning = check_keys(file);
-    table const t({&file, "", meaning.get()}, "");
+    auto const context = check_keys(file);
+    table const t({&file, "", context.get()}, "");
     scenario s;
     s.simulation = read_settings(t["simulation"]);
-    if (t.has("fluid")) s.water = read_fluid(t["fluid"]);
-    if (!s.water || !s.water->bare()) {
+    if (t.has("fluid")) s.fluid = read_fluid(t["fluid"]);
+    if (!s.fluid || !s.fluid->bare()) {
         if (!s.flow_alone() || t.has("materials")) s.materials = read_materials(t["materials"]);
-        s.bodies = read_particles(t["particles"], s, folder);
-        if (t.has("bonds")) s.joints = read_bonds(t["bonds"], s);
+        s.particles = read_particles(t["particles"], s, folder);
+        if (t.has("bonds")) s.bonds = read_bonds(t["bonds"], s);
         for (value const& one : t.list("walls")) s.walls.push_back(read_wall(one, s.simulation));
         for (value const& one : t.list("loads")) s.loads.push_back(read_load(one, s));
         check_loads(s);
     }
     for (value const& one : t.list("probes")) s.probes.push_back(read_probe(one, s));
-    s.out = t.has("output") ? read_output(t["output"]) : output{};
+    s.output = t.has("output") ? read_output(t["output"]) : output_settings{};
     return s;
 }
 

@@ -20,12 +20,12 @@ std::unique_ptr<runner> make(scenario const& s) {
 
 std::unique_ptr<runner> build_runner(scenario const& s) {
 #ifndef LACUNA_HAS_PICTURES
-    if (s.out.picture_every > 0)
-        refuse("output.picture_every", std::to_string(s.out.picture_every), "0: this program was built without pictures");
+    if (s.output.picture_every > 0)
+        refuse("output.picture_every", std::to_string(s.output.picture_every), "0: this program was built without pictures");
 #endif
 #ifndef LACUNA_RUN_CHECKPOINTS
-    if (s.out.checkpoint_every > 0)
-        refuse("output.checkpoint_every", std::to_string(s.out.checkpoint_every), "0: this program was built without checkpoints");
+    if (s.output.checkpoint_every > 0)
+        refuse("output.checkpoint_every", std::to_string(s.output.checkpoint_every), "0: this program was built without checkpoints");
 #endif
     if (s.flow_alone()) return make_network_runner(s);
     bool const single = s.simulation.single_precision;
@@ -33,8 +33,8 @@ std::unique_ptr<runner> build_runner(scenario const& s) {
     return single ? make<2, float>(s) : make<2, double>(s);
 }
 
-/// What the library calls flow is [fluid] of the scenario, and without it there are no pores.
-std::string in_words_of_the_scenario(std::string const& message) {
+/// Replaces the library's names by keys of the scenario: the library's flow is [fluid].
+std::string with_scenario_keys(std::string const& message) {
     if (message.rfind("flow.", 0) == 0) return "fluid." + message.substr(5);
     bool const of_pores = message.rfind("number of pores", 0) == 0 || message.rfind("size of the pore", 0) == 0;
     return of_pores ? "fluid: " + message : message;
@@ -43,15 +43,15 @@ std::string in_words_of_the_scenario(std::string const& message) {
 } // namespace
 
 std::unique_ptr<runner> make_runner(scenario const& s) {
-    // No file is written here: whatever fails lies in the scenario.
+    // No file is written here, so every error is an error of the scenario.
     try {
         return build_runner(s);
     } catch (refusal const&) {
         throw;
     } catch (std::invalid_argument const& bad) {
-        throw refusal(in_words_of_the_scenario(bad.what()));
+        throw refusal(with_scenario_keys(bad.what()));
     } catch (std::runtime_error const& bad) {
-        throw refusal((s.water ? "fluid: no pores between the particles of particles.position: " : "") + std::string(bad.what()));
+        throw refusal((s.fluid ? "fluid: no pores between the particles of particles.position: " : "") + std::string(bad.what()));
     }
 }
 

@@ -9,26 +9,30 @@
 
 namespace lacuna_run {
 
-/// A scenario made ready to run; what it is made of is known inside only. The step itself never passes through here.
+/// A scenario that is ready to run. Hides the type of the simulation. Single steps make no virtual call.
 class runner {
 public:
     virtual ~runner() = default;
-    /// Goes on from a checkpoint of the same scenario. \throws refusal for a file that is not one
+    /// Continues from a checkpoint of the same scenario. \throws refusal for another file or another scenario
     virtual void restore(std::string const& path) = 0;
-    /// Runs to the end, or until a signal asks to stop, and tells in `out` what it does; then there is a checkpoint.
-    /// \return whether the end was reached \throws lacuna::unstable_run
+    /// Runs to the end, or until a signal arrives, and writes rows and frames to `out`. After a signal it writes a
+    /// checkpoint.
+    /// \return whether the end was reached
+    /// \throws lacuna::unstable_run, std::runtime_error for a file that cannot be written
     virtual bool run(results& out) = 0;
-    virtual journal const& told() const = 0;
+    /// The cracks so far, and how far the files were written.
+    virtual journal const& log() const = 0;
     virtual long long steps() const = 0;
-    /// summary.json: how the run ended, in numbers.
-    /// \param ended "steps", "end_time", "unstable" or "stopped by" a signal; \param message what went wrong, empty if nothing
+    /// The text of summary.json.
+    /// \param ended "steps", "end_time", "unstable" or "stopped by SIGNAL"
+    /// \param message the error, or empty
     virtual std::string summary(std::string const& ended, std::string const& message) const = 0;
 };
 
-/// \throws refusal; std::invalid_argument for what only the parts of the simulation can tell
+/// \throws refusal, also for errors that the library finds while it builds the simulation
 std::unique_ptr<runner> make_runner(scenario const& s);
 
-/// One kind of particles and contacts, each compiled on its own: see kinds/.
+/// Makes a runner for one dimension, precision and contact law. Each combination is one source file in kinds/.
 template <int Dim, class Real, class ContactLaw>
 std::unique_ptr<runner> make_particle_runner(scenario const& s);
 std::unique_ptr<runner> make_network_runner(scenario const& s);

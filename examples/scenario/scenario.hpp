@@ -14,21 +14,22 @@
 #include <lacuna/simulation/guard_parameters.hpp>
 
 /// \file
-/// A scenario as plain data: what its TOML file says, checked, with every default filled in. SI units.
+/// A scenario as plain data: the checked content of its TOML file, with every default filled in. SI units.
 
 namespace lacuna_run {
 
-/// A scenario that cannot be run; the message is one line "full.path = value: must be rule".
+/// A scenario that cannot be run. The message is one line "full.path = value: must be rule".
 class refusal : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;
 };
 
+/// \throws refusal "path = value: must be rule"
 [[noreturn]] inline void refuse(std::string const& path, std::string const& value, std::string const& rule) {
     throw refusal(path + " = " + value + ": must be " + rule);
 }
 
-using point = std::array<double, 3>; ///< the third is 0 in the plane
+using point = std::array<double, 3>; ///< in the plane the third number is 0
 using pair = std::array<std::int32_t, 2>;
 
 enum class contact_law { none, frictional_spring, hertz_mindlin };
@@ -38,7 +39,7 @@ struct settings {
     int dimension = 2;
     bool single_precision = false;
     double thickness = 1;
-    bool spheres = false; ///< mass of spheres, else of discs
+    bool spheres = false; ///< masses of spheres; false: of discs
     contact_law contact = contact_law::frictional_spring;
     bond_law bond = bond_law::brittle_spring;
     bool velocity_verlet = false;
@@ -49,7 +50,7 @@ struct settings {
     std::optional<long long> steps;
     std::optional<double> end_time;
     point gravity{};
-    double fluid_density = 0;
+    double fluid_density = 0; ///< of the fluid at rest whose buoyancy reduces the weight of particles, kg/m^3
     int threads = 1;
     double local_damping = 0, mass_damping = 0, viscous_damping = 0;
 };
@@ -58,7 +59,7 @@ struct material {
     std::string name;
     double density = 0, normal_stiffness = 0, shear_stiffness = 0, friction = 0;
     std::optional<double> tensile_strength, shear_strength;
-    std::optional<double> young_modulus; ///< of Hertzian contacts; without, from normal_stiffness
+    std::optional<double> young_modulus; ///< of Hertzian contacts, Pa; none: derived from normal_stiffness
     double poisson_ratio = 0;
 };
 
@@ -67,22 +68,22 @@ struct fixed {
     bool x = false, y = false, z = false, rotation = false;
 };
 
-struct particles {
-    std::vector<point> position, velocity, spin; ///< spin: in the plane the first number
+struct particle_list {
+    std::vector<point> position, velocity, spin; ///< in the plane the spin is the first number
     std::vector<double> radius;
-    std::vector<double> density; ///< of each particle where a file has it, else none
-    std::vector<int> material; ///< number in `materials`
+    std::vector<double> density; ///< one per particle if a file has that column, else empty
+    std::vector<int> material;   ///< index in scenario::materials
     std::vector<fixed> fix;
     std::size_t size() const noexcept { return position.size(); }
 };
 
-struct bonds {
+struct bond_list {
     std::vector<pair> pairs;
-    std::vector<lacuna::bond_values> values; ///< one per pair, or none
+    std::vector<lacuna::bond_values> values; ///< one per pair, or empty
 };
 
 struct wall {
-    point place{}, normal{};
+    point position{}, normal{};
     double normal_stiffness = 0, shear_stiffness = 0, friction = 0;
     std::optional<double> young_modulus;
     double poisson_ratio = 0;
@@ -95,14 +96,14 @@ struct load {
     std::vector<std::int32_t> particles;
     point force{}, torque{}, velocity{};
     double pressure = 0, margin_diameters = 0, ramp_time = 0;
-    bool disc_area = false; ///< the pressure acts on the disc's face, else on the strip that it covers
+    bool disc_area = false; ///< pressure acts on the face pi r^2; false: on the side 2 r thickness
     side where = side::top;
 };
 
-/// A place in the pore network: a pore, or the pore nearest to a point.
-struct pore_place {
+/// A pore, given by its number or as the pore nearest to a point.
+struct pore_location {
     std::optional<point> near;
-    std::int32_t pore = -1;
+    std::int32_t pore = -1; ///< used if `near` is empty
 };
 
 struct bare_pore {
@@ -113,34 +114,35 @@ struct bare_throat {
     double aperture = 0, length = 0;
 };
 
-struct fluid {
+struct fluid_settings {
     struct reservoir {
-        pore_place where;
+        pore_location where;
         double pressure = 0;
     };
     struct source {
-        pore_place where;
+        pore_location where;
         double flow = 0;
     };
     double bulk_modulus = 2.2e9, conductivity = 1e-9;
     bool constant_aperture = false;
-    double aperture = 1e-7; ///< a0, or the constant one
-    double half_force = 1, gap_factor = 1;
+    double aperture = 1e-7; ///< a0, or the constant aperture, m
+    double half_force = 1;  ///< F0, N
+    double gap_factor = 1;  ///< gap_multiplier
     bool implicit = false;
     double time_step = 0; ///< 0: auto
-    std::optional<double> duration; ///< throats through which practically nothing passes within it are left out, s
+    std::optional<double> duration; ///< s: throats with negligible flow within this time are left out
     double initial_pressure = 0;
     bool drained = false;
     double boundary_pressure = 0;
     std::vector<reservoir> reservoirs;
     std::vector<source> sources;
-    std::optional<double> minimum_pressure; ///< the fluid tears below it
-    bool remeshing = false;                 ///< pores are made anew when the mesh does not fit any more
+    std::optional<double> minimum_pressure; ///< Pa: the fluid tears below it
+    bool remeshing = false;                 ///< rebuild the pores when the mesh no longer fits
     int remeshing_interval = 100;
     bool remeshing_on_broken_bond = false;
     std::optional<double> merge_conductance;
     bool mechanical_coupling = true;
-    std::vector<bare_pore> pores; ///< of a bare network; empty: triangulated particles
+    std::vector<bare_pore> pores; ///< of a bare network; empty: pores are triangulated between particles
     std::vector<bare_throat> throats;
     bool bare() const noexcept { return !pores.empty(); }
 };
@@ -155,18 +157,18 @@ enum class quantity {
 };
 
 struct probe {
-    std::string name; ///< as it was written
+    std::string name; ///< as in the file
     quantity what{};
-    int axis = -1; ///< -1: none, or the magnitude
+    int axis = -1; ///< -1: no component, or the magnitude
     std::int32_t index = -1;
     pair particles{-1, -1};
-    pore_place where; ///< of pores and throats
+    pore_location where; ///< of probes of pores and throats
     std::int32_t throat = -1;
     long long every = 1;
     std::string column; ///< heading in probes.csv
 };
 
-struct output {
+struct output_settings {
     std::string directory = "out";
     long long vtk_every = 0, picture_every = 0, checkpoint_every = 0;
 };
@@ -174,20 +176,20 @@ struct output {
 struct scenario {
     settings simulation;
     std::vector<material> materials;
-    particles bodies;
-    bonds joints;
+    particle_list particles;
+    bond_list bonds;
     std::vector<wall> walls;
     std::vector<load> loads;
-    std::optional<fluid> water;
+    std::optional<fluid_settings> fluid;
     std::vector<probe> probes;
-    output out;
-    /// Whether fluid flows between particles that stay where they are, or without any.
-    bool flow_alone() const noexcept { return water && (water->bare() || !water->mechanical_coupling); }
+    output_settings output;
+    /// Whether only fluid moves: in a bare network, or between fixed particles.
+    bool flow_alone() const noexcept { return fluid && (fluid->bare() || !fluid->mechanical_coupling); }
 };
 
 /// Reads and checks the text of a scenario.
 /// \param name of the file, for messages about its syntax
-/// \param folder that files named in it are relative to; empty: such files are refused
+/// \param folder to which paths in the scenario are relative; empty: paths are refused
 /// \throws refusal
 scenario read_scenario(std::string_view text, std::string const& name, std::string const& folder);
 

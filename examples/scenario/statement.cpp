@@ -30,10 +30,10 @@ std::string word_of(bond_law law) {
 
 namespace {
 
-/// A scenario in one of the ways in which it can be written.
+/// A scenario in a form that does not depend on how its file was written.
 struct statement {
-    std::uint64_t keys = 0; ///< hash of all that there are
-    scenario said;
+    std::uint64_t keys = 0; ///< hash of the paths of all keys
+    scenario stated;
     std::vector<std::uint8_t> held; ///< of each particle: bits x, y, z, r
 };
 
@@ -43,7 +43,7 @@ std::uint64_t hash_of_keys() {
     return sum.value();
 }
 
-std::vector<std::uint8_t> held_axes(particles const& p) {
+std::vector<std::uint8_t> held_axes(particle_list const& p) {
     std::vector<std::uint8_t> held(p.size(), 0);
     for (fixed const& f : p.fix)
         for (auto const id : f.particles)
@@ -51,17 +51,18 @@ std::vector<std::uint8_t> held_axes(particles const& p) {
     return held;
 }
 
-/// What is the same for all is kept once.
+/// Calls visit(list, length) for each list with one entry per particle or per bond.
 template <class Visit>
 void for_each_list(statement& s, Visit const& visit) {
-    std::size_t const n = s.said.bodies.size();
-    visit(s.said.bodies.velocity, n);
-    visit(s.said.bodies.spin, n);
-    visit(s.said.bodies.radius, n);
-    visit(s.said.bodies.material, n);
-    visit(s.said.joints.values, s.said.joints.pairs.size());
+    std::size_t const n = s.stated.particles.size();
+    visit(s.stated.particles.velocity, n);
+    visit(s.stated.particles.spin, n);
+    visit(s.stated.particles.radius, n);
+    visit(s.stated.particles.material, n);
+    visit(s.stated.bonds.values, s.stated.bonds.pairs.size());
     visit(s.held, n);
 }
+/// Keeps one entry of a list whose entries are all equal.
 template <class T>
 void shorten(std::vector<T>& list) {
     for (T const& value : list)
@@ -69,8 +70,8 @@ void shorten(std::vector<T>& list) {
     if (list.size() > 1) list.erase(list.begin() + 1, list.end());
 }
 
-/// Bonds have values of their own, or none.
-bool has_values(scenario const& s) { return !s.joints.values.empty(); }
+/// Whether bonds have their own values instead of their material's.
+bool has_values(scenario const& s) { return !s.bonds.values.empty(); }
 
 std::string held_text(std::uint8_t held) {
     std::string text = "\"";
@@ -84,7 +85,7 @@ std::string names_text(std::vector<material> const& materials) {
     return text;
 }
 
-/// Where a member of scenario has another name than its key. Whole parts of a path; the first entry that fits.
+/// A member of scenario whose key has another name. Only whole parts of a path match; the first matching entry counts.
 struct renamed {
     std::string_view member, key;
 };
@@ -95,21 +96,18 @@ constexpr renamed renames[] = {
     {"simulation.local_damping", "simulation.damping.local"},
     {"simulation.mass_damping", "simulation.damping.mass"},
     {"simulation.viscous_damping", "simulation.damping.viscous"},
-    {"bodies", "particles"},
-    {"joints.pairs", "bonds.pairs"},
-    {"water.constant_aperture", "fluid.aperture.law"},
-    {"water.half_force", "fluid.aperture.F0"},
-    {"water.gap_factor", "fluid.aperture.gap_multiplier"},
-    {"water.implicit", "fluid.solver"},
-    {"water.drained", "fluid.boundary"},
-    {"water.remeshing_interval", "fluid.remeshing.interval"},
-    {"water.remeshing_on_broken_bond", "fluid.remeshing.on_broken_bond"},
-    {"water.remeshing", "fluid.remeshing.rule"},
-    {"water.pores", "fluid.network.pores"},
-    {"water.throats", "fluid.network.throats"},
-    {"water", "fluid"},
+    {"fluid.constant_aperture", "fluid.aperture.law"},
+    {"fluid.half_force", "fluid.aperture.F0"},
+    {"fluid.gap_factor", "fluid.aperture.gap_multiplier"},
+    {"fluid.implicit", "fluid.solver"},
+    {"fluid.drained", "fluid.boundary"},
+    {"fluid.remeshing_interval", "fluid.remeshing.interval"},
+    {"fluid.remeshing_on_broken_bond", "fluid.remeshing.on_broken_bond"},
+    {"fluid.remeshing", "fluid.remeshing.rule"},
+    {"fluid.pores", "fluid.network.pores"},
+    {"fluid.throats", "fluid.network.throats"},
 };
-/// What a flag stands for: false, true.
+/// The words that stand for a flag's values false and true.
 struct flag_words {
     std::string_view key, no, yes;
 };
@@ -123,25 +121,25 @@ constexpr flag_words words[] = {
     {"fluid.remeshing.rule", "\"never\"", "\"when_needed\""},
 };
 
-void replace(std::string& text, std::string_view old, std::string_view fresh) {
-    if (auto const at = text.find(old); at != std::string::npos) text.replace(at, old.size(), fresh);
+void replace(std::string& text, std::string_view old, std::string_view replacement) {
+    if (auto const at = text.find(old); at != std::string::npos) text.replace(at, old.size(), replacement);
 }
 
-/// A difference with the keys' names and words for members and numbers.
+/// Translates the names of members to keys, and numbers to the words of the file.
 lacuna::difference as_keys(lacuna::difference d, scenario const& now) {
     std::string& path = d.path;
-    if (path.rfind("walls[", 0) == 0) replace(path, "].place", "].point");
+    if (path.rfind("walls[", 0) == 0) replace(path, "].position", "].point");
     if (path.rfind("materials[", 0) == 0) {
         auto const end = path.find(']');
         auto const number = std::size_t(std::stoul(path.substr(10, end - 10)));
         path = "materials." + now.materials.at(number).name + path.substr(end + 1);
     }
-    if (path.rfind("joints.values[", 0) == 0) { // joints.values[3].shear_force: bonds.shear_force[3]
+    if (path.rfind("bonds.values[", 0) == 0) { // bonds.values[3].shear_force: bonds.shear_force[3]
         auto const end = path.find(']');
-        path = "bonds" + path.substr(end + 1) + path.substr(13, end - 12);
+        path = "bonds" + path.substr(end + 1) + path.substr(12, end - 11);
     }
-    bool const constant = now.water && now.water->constant_aperture;
-    if (path == "water.aperture") path = constant ? "fluid.aperture.value" : "fluid.aperture.a0";
+    bool const constant = now.fluid && now.fluid->constant_aperture;
+    if (path == "fluid.aperture") path = constant ? "fluid.aperture.value" : "fluid.aperture.a0";
     for (auto const& [member, key] : renames) {
         char const next = path.size() > member.size() ? path[member.size()] : '.';
         if (path.compare(0, member.size(), member) != 0 || (next != '.' && next != '[')) continue;
@@ -160,7 +158,7 @@ lacuna::difference as_keys(lacuna::difference d, scenario const& now) {
     return d;
 }
 
-/// Without what may change.
+/// Removes everything that may change at a restart.
 void forget_changeable(scenario& s) {
     s.simulation.steps.reset();
     s.simulation.end_time.reset();
@@ -168,23 +166,23 @@ void forget_changeable(scenario& s) {
     s.simulation.guards = {};
     s.loads.clear();
     s.probes.clear();
-    s.out = {};
-    s.bodies.fix.clear(); // compared as axes held
+    s.output = {};
+    s.particles.fix.clear(); // compared as axes held
 }
 
 std::optional<lacuna::difference> first_difference(scenario before, scenario now,
                                                    std::vector<std::uint8_t> const& held_before) {
-    auto const held_now = held_axes(now.bodies);
+    auto const held_now = held_axes(now.particles);
     auto const names_before = names_text(before.materials), names_now = names_text(now.materials);
     if (names_before != names_now) return lacuna::difference{"materials", names_before, names_now};
     forget_changeable(before);
     forget_changeable(now);
     std::string_view const none = "left out";
-    // First what bonds are there, then what values they have.
-    if (auto d = lacuna::first_difference(before.joints.pairs, now.joints.pairs, "joints.pairs", none))
+    // Pairs before values: values of different lists of bonds cannot be compared.
+    if (auto d = lacuna::first_difference(before.bonds.pairs, now.bonds.pairs, "bonds.pairs", none))
         return as_keys(*d, now);
     for (scenario* one : {&before, &now})
-        if (!has_values(*one)) one->joints.values.resize(one->joints.pairs.size());
+        if (!has_values(*one)) one->bonds.values.resize(one->bonds.pairs.size());
     if (auto d = lacuna::first_difference(before, now, "", none)) return as_keys(*d, now);
     for (std::size_t k = 0; k < held_now.size() && k < held_before.size(); ++k)
         if (held_before[k] != held_now[k])
@@ -196,25 +194,25 @@ std::optional<lacuna::difference> first_difference(scenario before, scenario now
 } // namespace
 
 std::string statement_of(scenario const& s) {
-    statement one{hash_of_keys(), s, held_axes(s.bodies)};
-    one.said.bodies.fix.clear();
-    one.said.simulation.threads = 1; // the same bytes for any number
+    statement one{hash_of_keys(), s, held_axes(s.particles)};
+    one.stated.particles.fix.clear();
+    one.stated.simulation.threads = 1; // the statement is the same for any number of threads
     for_each_list(one, [](auto& list, std::size_t) { shorten(list); });
     lacuna::state_writer bytes;
     bytes(one);
     return bytes.bytes();
 }
 
-scenario earlier_scenario(std::string const& path, std::string const& told, scenario const& now) {
+scenario earlier_scenario(std::string const& path, std::string const& bytes_before, scenario const& now) {
     statement before;
     auto const refuse_file = [&](std::string const& why) { throw refusal("checkpoint " + path + ": " + why); };
     try {
         std::uint64_t keys_then = 0;
-        if (!told.empty()) lacuna::state_reader{told}(keys_then);
-        if (keys_then != hash_of_keys()) refuse_file("it is not of a scenario of this version of lacuna-run");
-        lacuna::state_reader bytes(told);
+        if (!bytes_before.empty()) lacuna::state_reader{bytes_before}(keys_then);
+        if (keys_then != hash_of_keys()) refuse_file("it was not made by a scenario of this version of lacuna-run");
+        lacuna::state_reader bytes(bytes_before);
         bytes(before);
-        lacuna::require_state(bytes.left() == 0, "it is longer than it should be");
+        lacuna::require_state(bytes.left() == 0, "it has extra bytes at its end");
     } catch (refusal const&) {
         throw;
     } catch (std::exception const& bad) {
@@ -223,15 +221,15 @@ scenario earlier_scenario(std::string const& path, std::string const& told, scen
     for_each_list(before, [](auto& list, std::size_t count) {
         if (list.size() == 1) list.resize(count, typename std::remove_cvref_t<decltype(list)>::value_type(list[0]));
     });
-    // `fix` has been read as the axes that are held.
+    // The statement has no list `fix`, only the held axes of each particle.
     for (std::size_t k = 0; k < before.held.size(); ++k) {
         auto const held = before.held[k];
-        before.said.bodies.fix.push_back(
+        before.stated.particles.fix.push_back(
             {{std::int32_t(k)}, (held & 1) != 0, (held & 2) != 0, (held & 4) != 0, (held & 8) != 0});
     }
-    if (auto const d = first_difference(before.said, now, before.held))
+    if (auto const d = first_difference(before.stated, now, before.held))
         refuse_file("it was made with " + d->path + " = " + d->first + ", the deck says " + d->second);
-    return before.said;
+    return before.stated;
 }
 
 } // namespace lacuna_run

@@ -6,18 +6,20 @@
 #include "scenario.hpp"
 
 /// \file
-/// What a scenario states, as a checkpoint holds it, and how it is compared when a run goes on. These may be others then,
-/// and act: loads, probes, output, simulation.steps, end_time, threads and guards. All else has to be the same, by its content: the
-/// order of `fix` and of materials, defaults that are written out, a file in place of lists make no difference.
+/// The statement of a scenario: its content as stored in a checkpoint, compared when a run is resumed. Loads, probes,
+/// output, and simulation.steps, end_time, threads and guards may change; new values take effect. Everything else must
+/// have the same content. The order of `fix` and of materials, explicit defaults, and a file in place of lists do not
+/// matter.
 
 namespace lacuna_run {
 
-/// Bytes that tell all that a scenario states.
+/// The content of a scenario as bytes.
 std::string statement_of(scenario const& s);
 
-/// The scenario that a run was begun or last resumed with, if `now` differs from it in nothing but what may change.
-/// \param path of the checkpoint, for messages; \param told its statement
-/// \throws refusal with the key that differs and both values; for a checkpoint that is not of a scenario
-scenario earlier_scenario(std::string const& path, std::string const& told, scenario const& now);
+/// The scenario with which a run was started or last resumed. `now` may differ from it only where changes are allowed.
+/// \param path of the checkpoint, for messages
+/// \param earlier statement in the checkpoint
+/// \throws refusal that names the differing key and both values; also for a checkpoint that was not made by a scenario
+scenario earlier_scenario(std::string const& path, std::string const& earlier, scenario const& now);
 
 } // namespace lacuna_run

@@ -12,8 +12,8 @@ std::string summary_text(scenario const& s, journal const& j, run_numbers const&
     if (!n.message.empty()) json.value("message", n.message);
     json.value("steps", n.steps).value("time", n.time).value("time_step", n.time_step);
     json.value("critical_time_step", n.critical);
-    json.value("particles", s.bodies.size());
-    json.value("bonds", s.joints.pairs.size());
+    json.value("particles", s.particles.size());
+    json.value("bonds", s.bonds.pairs.size());
     json.value("broken_tension", j.broken(false)).value("broken_shear", j.broken(true));
     if (n.energy) {
         auto const& e = *n.energy;
@@ -24,7 +24,7 @@ std::string summary_text(scenario const& s, journal const& j, run_numbers const&
         json.value("initial", e.initial).value("residual", e.residual());
         json.close('}');
     }
-    if (s.water) {
+    if (s.fluid) {
         json.open('[', "sources");
         for (auto const& source : n.sources) {
             json.open('{').value("name", source.name).value("volume", source.volume).value("rate", source.rate);

@@ -12,10 +12,10 @@
 
 namespace lacuna_run {
 
-/// The numbers with which a run ended.
+/// The final numbers of a run. SI units.
 struct run_numbers {
     struct pore {
-        std::optional<point> middle;
+        std::optional<point> middle; ///< none in a bare network
         double volume, pressure;
     };
     struct source {

@@ -12,8 +12,8 @@ namespace {
 
 constexpr int most = 64;
 
-/// Where the string that begins at `at` ends: behind its closing quotes, or at the end of what cannot be one.
-std::size_t behind_string(std::string_view text, std::size_t at) {
+/// Index behind the string that begins at `at`. An unclosed string ends at the end of its line or of the text.
+std::size_t end_of_string(std::string_view text, std::size_t at) {
     char const quote = text[at];
     std::string const three(3, quote);
     bool const lines = text.substr(at, 3) == three;
@@ -40,12 +40,12 @@ void require_shallow(std::string_view text, std::string const& name) {
         switch (text[at]) {
         case '\0': refuse_here("a NUL byte: must be text"); break;
         case '"':
-        case '\'': next = behind_string(text, at); break;
+        case '\'': next = end_of_string(text, at); break;
         case '#': next = std::min(text.find('\n', at), text.size()); break;
         case '[':
         case '{':
             parts = 0;
-            if (++depth > most) refuse_here("must be at most " + std::to_string(most) + " lists and tables within each other");
+            if (++depth > most) refuse_here("must be at most " + std::to_string(most) + " nested lists and tables");
             break;
         case ']':
         case '}': depth = depth > 0 ? depth - 1 : 0; break;

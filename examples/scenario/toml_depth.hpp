@@ -6,10 +6,10 @@
 
 namespace lacuna_run {
 
-/// What a text would overflow the stack of a reader that calls itself with: lists and tables within each other, and keys
-/// of many parts. A scenario has at most five levels.
-/// \param name of the file
-/// \throws refusal for more than 64 levels or parts, and for a NUL byte, with line and rule
+/// Refuses text that could overflow the stack of the recursive TOML reader: deeply nested lists and tables, and keys of
+/// many parts. A scenario needs at most five levels.
+/// \param name of the file, for messages
+/// \throws refusal with line and rule for more than 64 levels or parts, and for a NUL byte
 void require_shallow(std::string_view text, std::string const& name);
 
 } // namespace lacuna_run

@@ -86,8 +86,8 @@ std::string value::string() const {
 int value::word(std::string_view choices) const {
     auto const known = words_in(choices);
     std::string const found = node->is_string() ? string() : "";
-    for (std::size_t place = 0; place < known.size() && node->is_string(); ++place)
-        if (found == known[place]) return int(place);
+    for (std::size_t index = 0; index < known.size() && node->is_string(); ++index)
+        if (found == known[index]) return int(index);
     refuse("one of " + quoted(known) + did_you_mean(found, known));
 }
 
@@ -96,7 +96,7 @@ std::vector<value> value::list() const {
     if (!array) refuse("a list");
     std::vector<value> found;
     for (std::size_t k = 0; k < array->size(); ++k)
-        found.push_back({array->get(k), path + "[" + std::to_string(k) + "]", meaning});
+        found.push_back({array->get(k), path + "[" + std::to_string(k) + "]", context});
     return found;
 }
 
@@ -129,53 +129,53 @@ std::string did_you_mean(std::string const& word, std::vector<std::string> const
     return near.empty() ? "" : " (did you mean \"" + near + "\"?)";
 }
 
-table::table(value const& from, std::string rows) : toml_(from.node->as_table()), meaning_(from.meaning), path_(from.path), rows_(std::move(rows)) {
+table::table(value const& from, std::string rows) : toml_(from.node->as_table()), context_(from.context), path_(from.path), rows_(std::move(rows)) {
     if (!toml_) from.refuse("a table");
 }
 
 value table::operator[](char const* key) const {
-    value const found{toml_->get(key), path(key), meaning_};
+    value const found{toml_->get(key), path(key), context_};
     if (found.node == nullptr) found.refuse("given");
     return found;
 }
 
-std::string_view table::standard(char const* key) const {
+std::string_view table::default_of(char const* key) const {
     auto const* row = find_key(rows_.empty() ? key : rows_ + "." + key);
     if (row == nullptr) throw std::logic_error("no row for the key " + path(key));
-    if (std::string_view(row->standard) != required) return row->standard;
-    if (means_something(*meaning_, *row, *toml_)) (void)(*this)[key];
+    if (std::string_view(row->default_value) != required) return row->default_value;
+    if (is_applicable(*context_, *row, *toml_)) (void)(*this)[key];
     return "0";
 }
 
 double table::number(char const* key) const {
     if (has(key)) return (*this)[key].number();
-    return lacuna::read_number(path(key), std::string(standard(key)));
+    return lacuna::read_number(path(key), std::string(default_of(key)));
 }
 
 long long table::whole(char const* key) const {
     if (has(key)) return (*this)[key].whole_number();
-    return (long long)(lacuna::read_number(path(key), std::string(standard(key))));
+    return (long long)(lacuna::read_number(path(key), std::string(default_of(key))));
 }
 
-bool table::flag(char const* key) const { return has(key) ? (*this)[key].flag() : standard(key) == "true"; }
+bool table::flag(char const* key) const { return has(key) ? (*this)[key].flag() : default_of(key) == "true"; }
 
 int table::word(char const* key) const {
-    auto const text = has(key) ? (*this)[key].string() : std::string(standard(key));
+    auto const text = has(key) ? (*this)[key].string() : std::string(default_of(key));
     auto const known = words_in(find_key(rows_ + "." + key)->good.choices);
-    for (std::size_t place = 0; place < known.size(); ++place)
-        if (text == known[place] || text == quoted({known[place]})) return int(place);
+    for (std::size_t index = 0; index < known.size(); ++index)
+        if (text == known[index] || text == quoted({known[index]})) return int(index);
     (*this)[key].refuse("given");
 }
 
 point table::vector(char const* key, int dimension) const {
     if (has(key)) return (*this)[key].vector(dimension);
-    (void)standard(key);
+    (void)default_of(key);
     return {};
 }
 
 std::vector<value> table::list(char const* key) const {
     if (has(key)) return (*this)[key].list();
-    (void)standard(key);
+    (void)default_of(key);
     return {};
 }
 

@@ -17,11 +17,11 @@ namespace lacuna_run {
 
 namespace {
 
-/// More bonds a particle than this are no packing.
+/// A packing has fewer bonds per particle.
 constexpr std::size_t most_bonds = 100;
 
 template <int Dim>
-std::vector<pair> search(particles const& p, double gap) {
+std::vector<pair> search(particle_list const& p, double gap) {
     std::vector<lacuna::vec<double, Dim>> at(p.size());
     std::vector<double> reach(p.size());
     for (std::size_t k = 0; k < p.size(); ++k) {
@@ -40,7 +40,7 @@ std::vector<pair> search(particles const& p, double gap) {
 
 } // namespace
 
-std::vector<pair> touching_pairs(particles const& p, int dimension, value const& gap) {
+std::vector<pair> touching_pairs(particle_list const& p, int dimension, value const& gap) {
     double const most = 10 * lacuna::median_radius(std::span<double const>(p.radius));
     if (gap.number() > most) gap.refuse("at most ten times the median radius, " + lacuna::to_text(most) + " m");
     try {
@@ -50,19 +50,19 @@ std::vector<pair> touching_pairs(particles const& p, int dimension, value const&
     }
 }
 
-std::vector<std::int32_t> row_on_side(particles const& p, side where, double margin) {
+std::vector<std::int32_t> row_on_side(particle_list const& p, side where, double margin) {
     bool const upright = where == side::top || where == side::bottom;
     double const sign = where == side::top || where == side::right ? 1 : -1;
     auto const along = [&](std::size_t k) { return p.position[k][upright ? 0 : 1]; };
     auto const out = [&](std::size_t k) { return sign * p.position[k][upright ? 1 : 0]; };
-    // In order along the side: a disc can only hide those that are within its own radius.
+    // Sorted along the side, because a disc hides only centres within its own radius.
     std::vector<std::size_t> order(p.size());
     for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
     std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return along(a) < along(b); });
     std::vector<char> hidden(p.size(), 0);
     for (std::size_t n = 0; n < order.size(); ++n) {
         std::size_t const j = order[n];
-        // Discs of a regular row just touch the line of sight of those behind.
+        // In a regular packing discs just touch the line of sight of the centres behind.
         double const wide = p.radius[j] * (1 + lacuna::touching_slack<double>);
         auto const hide = [&](std::size_t k) {
             if (std::fabs(along(k) - along(j)) > wide) return false;

@@ -42,8 +42,8 @@ std::vector<std::string> accepted; ///< decks that were run: most mutations of r
 
 /// True for small scenarios, which take milliseconds.
 bool is_small(scenario const& s) {
-    return s.bodies.size() <= 64 && s.joints.pairs.size() <= 240 && s.walls.size() <= 8 && s.loads.size() <= 16 &&
-           s.materials.size() <= 8 && s.probes.size() <= 16 && (!s.water || s.water->pores.size() <= 64);
+    return s.particles.size() <= 64 && s.bonds.pairs.size() <= 240 && s.walls.size() <= 8 && s.loads.size() <= 16 &&
+           s.materials.size() <= 8 && s.probes.size() <= 16 && (!s.fluid || s.fluid->pores.size() <= 64);
 }
 
 /// \param fine true: reduces the automatic step, so that the energy balance closes well
@@ -52,27 +52,27 @@ void shorten(scenario& s, bool fine) {
     s.simulation.end_time.reset();
     s.simulation.steps = std::min(s.simulation.steps.value_or(last_step), last_step);
     s.simulation.threads = 1;
-    s.out.directory = scratch + "/out";
-    s.out.checkpoint_every = checkpoint_step;
-    if (s.out.vtk_every > 0) s.out.vtk_every = std::max(s.out.vtk_every, 9LL);
-    if (s.out.picture_every > 0) s.out.picture_every = std::max(s.out.picture_every, 16LL);
+    s.output.directory = scratch + "/out";
+    s.output.checkpoint_every = checkpoint_step;
+    if (s.output.vtk_every > 0) s.output.vtk_every = std::max(s.output.vtk_every, 9LL);
+    if (s.output.picture_every > 0) s.output.picture_every = std::max(s.output.picture_every, 16LL);
 }
 
 /// The same scenario with the particles in reverse order.
 scenario reversed(scenario s) {
-    auto const last = std::int32_t(s.bodies.size()) - 1;
+    auto const last = std::int32_t(s.particles.size()) - 1;
     auto const reverse = [](auto& list) { std::reverse(list.begin(), list.end()); };
-    reverse(s.bodies.position);
-    reverse(s.bodies.velocity);
-    reverse(s.bodies.spin);
-    reverse(s.bodies.radius);
-    reverse(s.bodies.density);
-    reverse(s.bodies.material);
-    for (auto& f : s.bodies.fix)
+    reverse(s.particles.position);
+    reverse(s.particles.velocity);
+    reverse(s.particles.spin);
+    reverse(s.particles.radius);
+    reverse(s.particles.density);
+    reverse(s.particles.material);
+    for (auto& f : s.particles.fix)
         for (auto& id : f.particles) id = last - id;
     for (auto& l : s.loads)
         for (auto& id : l.particles) id = last - id;
-    for (auto& p : s.joints.pairs)
+    for (auto& p : s.bonds.pairs)
         for (auto& id : p) id = last - id;
     s.probes.clear();
     return s;
@@ -103,7 +103,7 @@ outcome play(scenario const& s, look how, std::string const& checkpoint = "") {
     lacuna_run::resumption start;
     if (!checkpoint.empty()) {
         run->restore(checkpoint);
-        start = lacuna_run::find_earlier_part(s, checkpoint, run->told(), run->steps());
+        start = lacuna_run::find_earlier_part(s, checkpoint, run->log(), run->steps());
     }
     outcome done;
     auto const* watched = dynamic_cast<fuzz::watched const*>(run.get());
@@ -119,13 +119,13 @@ outcome play(scenario const& s, look how, std::string const& checkpoint = "") {
         out.finish(run->summary("unstable", bad.what()), true);
     }
     if (watched) done.last = watched->facts(done.message.empty());
-    done.files = files_in(s.out.directory);
+    done.files = files_in(s.output.directory);
     return done;
 }
 
 /// True if only the particles and the fluid between them act on particles.
 bool is_free(scenario const& s) {
-    return s.walls.empty() && s.loads.empty() && s.bodies.fix.empty() && s.simulation.gravity == lacuna_run::point{} &&
+    return s.walls.empty() && s.loads.empty() && s.particles.fix.empty() && s.simulation.gravity == lacuna_run::point{} &&
            s.simulation.local_damping == 0 && s.simulation.mass_damping == 0;
 }
 
@@ -144,7 +144,7 @@ void check_steps(scenario const& s, outcome const& done) {
 }
 
 void check_restart(scenario const& s, outcome const& whole) {
-    std::string const checkpoint = s.out.directory + "/checkpoint.bin";
+    std::string const checkpoint = s.output.directory + "/checkpoint.bin";
     if (!fs::exists(checkpoint)) return;
     outcome const resumed = play(s, look::at_end, checkpoint);
     fuzz::expect(resumed.message == whole.message, "a resumed run ends as the whole one");

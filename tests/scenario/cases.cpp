@@ -25,8 +25,8 @@ table probes_of(std::string const& name, int status = 0) {
     return table(here / "out/probes.csv");
 }
 
-/// How long the pair pushes. It begins to within the step before the first row with a force, and ends within the one after
-/// the last: half a step more at the end, by a first row at which it touches without a force a whole one at the beginning.
+/// Duration of a contact, s. The contact begins one step before the first row with a force, because the discs start in
+/// touch without a force. It ends within the step after the last such row: half a step on average.
 double contact_time(table const& t) {
     auto const time = t.column("time"), force = t.column("contact.normal_force[0-1]");
     double first = -1, last = -1;
@@ -81,7 +81,7 @@ TEST_CASE("oblique impact on a wall (1d)", "[cases][reference]") {
         auto const t = probes_of(name);
         REQUIRE(t.last("wall.force.y[0]") == 0);
         REQUIRE_THAT(t.last("velocity.x[0]") / 0.01, WithinRel(reference(id, key, "vt_after/vn"), 2e-3));
-        // A force along +s on the particle slows it and turns it clockwise.
+        // A force along +s slows the particle and rotates it clockwise.
         REQUIRE_THAT(std::fabs(t.last("spin[0]")) * 0.5 / 0.01, WithinRel(reference(id, key, "omegaR_after/vn"), 2e-3));
     }
 }
@@ -124,7 +124,7 @@ TEST_CASE("pores in a line (5a)", "[cases][reference]") {
     auto const compare = [](std::vector<double> const& p, std::string const& id, double tolerance) {
         auto const expected = reference_list(id);
         INFO(id);
-        // The error of forward Euler is first order in the step and relative to the pulse, not to what is left of it.
+        // The error of forward Euler is of first order in the step and relative to the initial pulse.
         for (std::size_t k = 0; k < p.size(); ++k) REQUIRE_THAT(p[k], WithinAbs(expected.at(k), tolerance));
     };
     auto const steps = pressures(probes_of("pulse_steps"), 1);
@@ -170,7 +170,8 @@ TEST_CASE("pores between discs (9a, 9e)", "[cases][reference]") {
 
 namespace {
 
-/// A wet triangle of bonded discs and a fourth disc that leaves it at 2 m/s, with water that tears, or not.
+/// A wet triangle of bonded discs, and a fourth disc that leaves it at 2 m/s. `fluid_keys` decide whether the water
+/// tears.
 std::string flyer(std::string const& fluid_keys, std::string const& settings = "end_time = 1.0") {
     return "[simulation]\n" + settings + R"(
 [materials.m]
@@ -217,24 +218,25 @@ table run_flyer(std::string const& name, std::string const& text) {
 
 } // namespace
 
-TEST_CASE("a disc that leaves water goes when the water tears", "[cases]") {
+TEST_CASE("a disc leaves the water freely if the water tears", "[cases]") {
     // Water without tension, at zero pressure from the start: nothing pulls the disc back.
     auto const free = run_flyer("flyer_torn", flyer("minimum_pressure = 0.0"));
     REQUIRE_THAT(free.last("velocity.x[3]"), WithinRel(2.0, 1e-12));
     REQUIRE_THAT(free.last("position.x[3]"), WithinRel(1.5 + 2.0 * free.last("time"), 1e-9));
     REQUIRE(free.last("pore.pressure[1;0.5]") == 0);
-    // At 1000 Pa it pushes for one step at most, in which the pore grows by far more than p / K: m dv <= p l dt, l <= 1 m.
+    // 1000 Pa push the disc for at most one step, because the pore then grows by far more than p / K: m dv <= p l dt, l
+    // <= 1 m.
     auto const pushed = run_flyer("flyer_pushed", flyer("minimum_pressure = 0.0\ninitial_pressure = 1000.0"));
     auto const speeds = pushed.column("velocity.x[3]");
     double const mass = 1000 * 3.14159265358979323846 * 0.25;
     REQUIRE(std::fabs(speeds.back() - 2) < 1000 * 1.0 * pushed.column("time").at(1) / mass);
     REQUIRE(speeds.back() == speeds.at(2));
-    // With a fluid that never tears it is held back for ever.
+    // A fluid that never tears holds the disc back.
     auto const held = run_flyer("flyer_held", flyer(""));
     REQUIRE(held.last("velocity.x[3]") < 1.5);
 }
 
-TEST_CASE("pores are made anew where the scenario asks for it, on from a checkpoint too", "[cases][checkpoint]") {
+TEST_CASE("pores are rebuilt if the scenario asks for it, also after a restart", "[cases][checkpoint]") {
     std::string const keys = "remeshing = { rule = \"when_needed\", interval = 10 }\nminimum_pressure = 0.0";
     std::string const text = flyer(keys, "steps = 4000\ntime_step = 2e-4") + "[output]\ncheckpoint_every = 2000\n";
     folder const whole("remeshed"), half("remeshed_half");
@@ -257,7 +259,7 @@ TEST_CASE("pores are made anew where the scenario asks for it, on from a checkpo
     REQUIRE_THAT(t.last("energy.residual"), WithinAbs(0, 1e-9 * t.last("energy.kinetic")));
 }
 
-TEST_CASE("a pressure on a row is that on the line that the row covers", "[cases]") {
+TEST_CASE("a pressure on a row acts on the length that the row covers", "[cases]") {
     // Ten discs of 1 mm side by side on a floor, 1 m thick: 1e6 Pa x 0.02 m x 1 m; on their faces 10 pi r^2 x 1e6 Pa.
     std::string const text = R"([simulation]
 steps = 60000

@@ -12,7 +12,7 @@
 
 using program::folder;
 
-TEST_CASE("the command line: version, help, the option that was meant", "[program]") {
+TEST_CASE("the command line: version, help, suggestion for a misspelt option", "[program]") {
     folder const here("command_line");
     auto const version = here.run("--version");
     CHECK(version.status == 0);
@@ -28,7 +28,7 @@ TEST_CASE("the command line: version, help, the option that was meant", "[progra
     CHECK(here.files().empty());
 }
 
-TEST_CASE("files that are no scenario are refused in one line", "[program]") {
+TEST_CASE("files without a scenario are refused in one line", "[program]") {
     folder const here("no_scenario");
     std::filesystem::create_directories(here / "directory");
     here.write("empty.toml", "");
@@ -50,7 +50,7 @@ TEST_CASE("files that are no scenario are refused in one line", "[program]") {
     }
 }
 
-TEST_CASE("what cannot be said on stdout is an error", "[program]") {
+TEST_CASE("output that cannot be written to stdout is an error", "[program]") {
     if (!std::filesystem::exists("/dev/full")) return;
     folder const here("full_stdout");
     std::string const command = "cd '" + (here / "").string() + "' && '" LACUNA_RUN_PROGRAM "' ";

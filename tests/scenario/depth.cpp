@@ -25,16 +25,16 @@ std::string times(std::size_t count, std::string const& part) {
 
 } // namespace
 
-TEST_CASE("depth without end is refused before the stack is full", "[refusal]") {
+TEST_CASE("endless nesting is refused before the stack overflows", "[refusal]") {
     std::size_t const many = 150000;
-    std::string const parts = "must be keys of at most 64 parts", levels = "must be at most 64 lists and tables";
+    std::string const parts = "must be keys of at most 64 parts", levels = "must be at most 64 nested lists and tables";
     REQUIRE_THAT(answer("x = 1\n" + times(many, "a.") + "a = 1\n"), contains_text("case.toml:2: " + parts));
     REQUIRE_THAT(answer("[" + times(many, "a.") + "a]\n"), contains_text("case.toml:1: " + parts));
     REQUIRE_THAT(answer("a = " + times(many, "[") + "\n"), contains_text("case.toml:1: " + levels));
     REQUIRE_THAT(answer("a = " + times(many, "{ a = ") + "\n"), contains_text("case.toml:1: " + levels));
     REQUIRE_THAT(answer("a = " + times(many, "[\n")), contains_text(levels));
     REQUIRE_THAT(answer(std::string("a = 25\0" "00\n", 10)), contains_text("case.toml:1: a NUL byte"));
-    // Brackets and dots of strings and remarks do not count.
+    // Brackets and dots in strings and comments do not count.
     for (std::string const quote : {"\"", "'", "\"\"\"", "'''"})
         REQUIRE_THAT(answer("simulation = " + quote + times(many, "[.") + quote + "\n"), contains_text("simulation = \"[."));
     REQUIRE_THAT(answer("# " + times(many, "[.") + "\n"), contains_text("simulation = (missing)"));

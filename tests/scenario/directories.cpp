@@ -11,7 +11,7 @@
 #include "scenario/program.hpp"
 
 /// \file
-/// Whose an output directory is, what of earlier runs stays in it, and what a checkpoint costs.
+/// Ownership of an output directory, results of earlier runs in it, and the size of a checkpoint.
 
 using program::folder;
 using program::table;
@@ -27,7 +27,7 @@ std::string pair_text(long long steps, std::string const& more = "") {
 }
 constexpr long long for_ever = 1000000000;
 
-/// Starts a run that does not end by itself, and waits until it has told something.
+/// Starts an endless run and waits until it has written some rows.
 struct long_run : process::running {
     long_run(folder const& here, std::string const& file, std::vector<std::string> const& options = {})
         : process::running(words(file, options), empty(here)) {
@@ -65,7 +65,7 @@ TEST_CASE("results of an earlier run are refused, or replaced with all their fra
     REQUIRE_THAT(refused.err, contains_text("output.directory = \"out\": must be") && contains_text("--force"));
     REQUIRE(std::count(refused.err.begin(), refused.err.end(), '\n') == 1);
     REQUIRE(process::files_of(here / "out") == before);
-    // A refusal that comes before the first step does not cost the results either.
+    // A refusal before the first step keeps the earlier results.
     here.write("wrong.toml", pair_text(30, "vtk_every = -1\n"));
     REQUIRE(here.run("--quiet --force wrong.toml").status == 2);
     REQUIRE(process::files_of(here / "out") == before);
@@ -84,7 +84,7 @@ TEST_CASE("results of an earlier run are refused, or replaced with all their fra
     REQUIRE(left == process::files_of(alone / "out"));
 }
 
-TEST_CASE("two runs do not share a directory, and a killed one holds it no longer", "[program][directory]") {
+TEST_CASE("two runs do not share a directory, and a killed run releases it", "[program][directory]") {
     folder const here("shared");
     here.write("long.toml", pair_text(for_ever));
     here.write("short.toml", pair_text(10));
@@ -99,7 +99,7 @@ TEST_CASE("two runs do not share a directory, and a killed one holds it no longe
         first.send(SIGKILL);
         REQUIRE(first.wait() == -SIGKILL);
     }
-    // Nobody owns it, but results are there.
+    // The directory has no owner, but it holds results.
     auto const refused = here.run("--quiet short.toml");
     REQUIRE(refused.status == 2);
     REQUIRE_THAT(refused.err, contains_text("--force"));
@@ -107,13 +107,13 @@ TEST_CASE("two runs do not share a directory, and a killed one holds it no longe
     REQUIRE(table(here / "out/probes.csv").rows.size() == 11);
     REQUIRE(here.files() ==
             std::vector<std::string>{"long.toml", "out/events.csv", "out/probes.csv", "out/summary.json", "short.toml"});
-    // The number of a dead owner may be that of another process now.
+    // Another process may have the number of the dead owner.
     here.write("out/lacuna.lock", std::to_string(getpid()) + " 1 elsewhere\n");
     REQUIRE(here.run("--quiet --force short.toml").status == 0);
     REQUIRE_FALSE(holds(here.files(), "out/lacuna.lock"));
 }
 
-TEST_CASE("a signal leaves whole and marked files, and the way on", "[program][directory]") {
+TEST_CASE("after a signal files are complete, and the message says how to continue", "[program][directory]") {
     folder const here("signals");
     here.write("long.toml", pair_text(for_ever, "vtk_every = 1000\n"));
     for (int const signal : {SIGTERM, SIGINT, SIGHUP}) {
@@ -128,7 +128,7 @@ TEST_CASE("a signal leaves whole and marked files, and the way on", "[program][d
         long long const steps = summary.at("steps");
         REQUIRE(table(here / "out/probes.csv").rows.size() == std::size_t(steps) + 1);
         REQUIRE(holds(here.files(), "out/checkpoint.bin"));
-        // To be resumed for some steps more, and then it is as if it had never been stopped.
+        // Resumed for some more steps, the run must equal one that was never stopped.
         here.write("on.toml", pair_text(steps + 10, "vtk_every = 1000\n"));
         REQUIRE(here.run("--quiet --restart out/checkpoint.bin on.toml").status == 0);
         if (signal != SIGTERM) continue;
@@ -151,17 +151,17 @@ TEST_CASE("a run is resumed in another directory, and from a checkpoint that was
     auto const from = [](program::fs::path const& path) { return "--quiet --restart '" + path.string() + "' case.toml"; };
     REQUIRE(other.run(from(whole / "out/checkpoint.bin")).status == 0);
     REQUIRE((process::files_of(other / "out") == expected));
-    // Results of another run are in the way.
+    // The directory holds results of another run.
     other.write("short.toml", pair_text(5));
     REQUIRE(other.run("--quiet --force short.toml").status == 0);
     REQUIRE(other.run(from(whole / "out/checkpoint.bin")).status == 2);
     REQUIRE(other.run("--force " + from(whole / "out/checkpoint.bin")).status == 0);
     REQUIRE((process::files_of(other / "out") == expected));
-    // A copy of the checkpoint elsewhere belongs to the logs in the output directory.
+    // A copied checkpoint finds the files of its run in the output directory.
     program::fs::copy_file(whole / "out/checkpoint.bin", other / "copy.bin");
     REQUIRE(other.run(from(other / "copy.bin")).status == 0);
     REQUIRE((process::files_of(other / "out") == expected));
-    // Without these, or with others, it is refused, and nothing changes.
+    // Without these files, or with others, it is refused, and nothing changes.
     auto const refused = [&](std::string const& what) {
         auto const before = process::files_of(other / "");
         auto const ran = other.run(from(other / "copy.bin"));
@@ -180,10 +180,10 @@ TEST_CASE("a run is resumed in another directory, and from a checkpoint that was
     refused("probes.csv does not begin with the");
     other.write("out/probes.csv", probes);
     program::fs::remove(other / "out/particles-000000000030.vtp");
-    refused("particles-000000000030.vtp is missing, which particles.pvd lists");
+    refused("particles-000000000030.vtp is missing; particles.pvd lists it");
 }
 
-TEST_CASE("a checkpoint holds the state and not the past: its size does not grow", "[program][directory][checkpoint]") {
+TEST_CASE("a checkpoint holds the state but no history: its size does not grow", "[program][directory][checkpoint]") {
     std::vector<std::size_t> sizes;
     for (long long const steps : {100, 20000}) {
         folder const here("past");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What ends a run, seen from the program: guards by name, and messages that name the cause.
+// Guards that end a run: each has a name, and each message names the cause.
 
 #include <algorithm>
 #include <string>
@@ -33,7 +33,7 @@ program::result run(std::string const& text, std::string const& options = "") {
 
 } // namespace
 
-TEST_CASE("particles at one place are named, dry, wet and by --check", "[guards][program]") {
+TEST_CASE("particles at the same position are named, dry, wet and with --check", "[guards][program]") {
     std::string const places = "position = [[0.0, 0.0], [1.0, 0.0], [0.5, 0.875], [0.5, 0.875], [0.5, -0.875]]\n";
     std::string const fluid = "[fluid]\nbulk_modulus = 1e6\nconductivity = 1e-9\naperture = { law = \"constant\", value = 1e-4 }\n";
     for (std::string const bonds : {"", "[bonds]\ntouching = true\ngap = 1e-9\n"})
@@ -51,7 +51,7 @@ TEST_CASE("particles at one place are named, dry, wet and by --check", "[guards]
     CHECK_THAT(ran.err, contains_text("particles 1 and 2 are at the same place (3, 0, 1)"));
 }
 
-TEST_CASE("an overlap of more than a radius at the start is refused, or allowed by name", "[guards][program]") {
+TEST_CASE("an initial overlap of more than a radius is refused, unless its guard is off", "[guards][program]") {
     std::string const row = "position = [[0.0, 0.0], [0.4, 0.0]]\nfix = [{ particles = [0, 1], axes = \"xyr\" }]\n";
     for (std::string const options : {"", "--check"}) {
         auto const ran = run(deck("steps = 10", row), options);
@@ -70,7 +70,7 @@ TEST_CASE("a crushed bond is named, with its limit", "[guards][program]") {
     CHECK_THAT(ran.err, contains_text("bond 0 between them is crushed") && contains_text("10000 N"));
 }
 
-TEST_CASE("a row that buckles runs, with a step that is too long it does not", "[guards][program]") {
+TEST_CASE("a row that buckles runs, but not with too long a time step", "[guards][program]") {
     std::string const row = "position = [[0.0, 0.0], [0.9, 1e-8], [1.8, -1e-8], [2.7, 1e-8], [3.6, 0.0]]\n"
                             "fix = [{ particles = [0, 4], axes = \"xyr\" }]\n[[probes]]\nquantity = \"position.y\"\nparticle = 2\n";
     folder const here("buckling");
@@ -90,7 +90,7 @@ TEST_CASE("a row that buckles runs, with a step that is too long it does not", "
     CHECK_THAT(long_step.err, contains_text("the time step is above the stable one"));
 }
 
-TEST_CASE("single precision far from the origin is refused, or allowed by name", "[guards][program]") {
+TEST_CASE("single precision far from the origin is refused, unless its guard is off", "[guards][program]") {
     std::string const far = "position = [[100.0, 0.0], [102.0, 0.0]]\n";
     std::string small = deck("real = \"float\"\nsteps = 10", far);
     auto const at = small.find("radius = 0.5");

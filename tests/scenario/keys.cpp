@@ -13,7 +13,7 @@
 #include "scenario.hpp"
 
 /// \file
-/// The table of keys keeps what it says: each row is tried alone, in a file that holds nothing but this key and what it asks for.
+/// Every row of the table of keys is tried alone, in a file that holds only this key and the keys that it requires.
 
 using namespace lacuna_run;
 
@@ -28,17 +28,17 @@ std::string answer(tree const& file) {
     return "accepted";
 }
 
-/// A key elsewhere, and what stands there. Keys that begin with a dot stand beside the one that is tried.
+/// Another key and its value. A path that begins with a dot belongs to the table of the key under test.
 struct setting {
     char const* path;
     std::string value;
 };
-struct way {
-    std::vector<setting> kept, broken;
+struct condition_settings {
+    std::vector<setting> satisfied, violated;
 };
 
-/// How a condition of flow and of what stands in several tables is kept, and how broken.
-way way_of(needs what) {
+/// Settings that satisfy a condition, and settings that violate it.
+condition_settings settings_of(needs what) {
     std::string const pores = "[ { volume = 1.0 } ]";
     std::vector<setting> const rigid{{"fluid.mechanical_coupling", "false"}}, bonds{{"bonds.touching", "true"}};
     std::vector<setting> const young{{"simulation.contact_law", "\"hertz_mindlin\""}, {".young_modulus", "1e9"}};
@@ -76,7 +76,7 @@ way way_of(needs what) {
     case bare_network: return {{{"fluid.network.pores", pores}}, {}};
     default: break;
     }
-    // Of the same table.
+    // Conditions on the same table.
     switch (what) {
     case no_steps: return {{}, {{".steps", "1"}}};
     case no_file: return {{}, {{".file", "\"x.csv\""}}};
@@ -90,7 +90,7 @@ way way_of(needs what) {
     case no_throat: return {{}, {{".throat", "0"}}};
     case constant_aperture: return {{{".law", "\"constant\""}}, {{".law", "\"contact_force\""}}};
     case contact_aperture: return {{{".law", "\"contact_force\""}}, {{".law", "\"constant\""}}};
-    default: throw std::logic_error("a condition that the test does not know: " + std::to_string(what));
+    default: throw std::logic_error("a condition that this test does not know: " + std::to_string(what));
     }
 }
 
@@ -100,25 +100,27 @@ void put(tree& file, key const& row, setting const& s) {
     file.set(path, s.value);
 }
 
-/// A file in which the key stands with that value and means something, but for one condition.
-tree file_with(key const& row, std::string const& value, std::uint64_t broken = 0) {
+/// A file in which the key has that value and applies, but for the violated condition.
+tree file_with(key const& row, std::string const& value, std::uint64_t violated = 0) {
     tree file;
-    // What the tables above the key ask for.
+    // Conditions of the tables above the key.
     std::uint64_t asked = row.where;
     std::string_view const path = row.path;
     for (std::size_t at = path.find_first_of(".["); at != path.npos; at = path.find_first_of(".[", at + 1))
         if (auto const* above = find_key(path.substr(0, at))) asked |= above->where;
-    // Of several conditions that do not hold the first is told.
+    // The message names the first violated condition, so later ones may fail, too.
     for (condition const& c : conditions)
-        if ((asked & c.what) != 0 && (broken == 0 || c.what <= broken || (row.where & c.what) == 0))
-            for (setting const& s : (broken & c.what) != 0 ? way_of(c.what).broken : way_of(c.what).kept) put(file, row, s);
+        if ((asked & c.what) != 0 && (violated == 0 || c.what <= violated || (row.where & c.what) == 0)) {
+            condition_settings const one = settings_of(c.what);
+            for (setting const& s : (violated & c.what) != 0 ? one.violated : one.satisfied) put(file, row, s);
+        }
     file.set(path, value);
     return file;
 }
 
 std::string number_text(double x) { return lacuna::to_text(x).find_first_of(".en") == std::string::npos ? lacuna::to_text(x) + ".0" : lacuna::to_text(x); }
 
-/// A good value of its kind.
+/// An allowed value.
 std::string sample(key const& row) {
     rule const& r = row.good;
     double const inside = std::isfinite(r.least) && std::isfinite(r.most) ? 0.5 * (r.least + r.most) : std::isfinite(r.most) ? r.most - 1 : 1;
@@ -135,9 +137,9 @@ std::string sample(key const& row) {
     case kind::text:
     case kind::each_text: return "\"x\"";
     case kind::vector: return "[0.0, 0.0]";
-    case kind::turn: return "0.0";
+    case kind::rotation: return "0.0";
     case kind::points: return "[[0.0, 0.0]]";
-    case kind::turns: return "[0.0]";
+    case kind::rotations: return "[0.0]";
     case kind::numbers: return "[0]";
     case kind::pairs: return "[[0, 1]]";
     case kind::two: return "[0, 1]";
@@ -151,13 +153,13 @@ std::string sample(key const& row) {
 
 TEST_CASE("each key is read as its row says", "[keys]") {
     for (key const& row : keys) {
-        std::string const path = told_path(row.path);
+        std::string const path = refused_path(row.path);
         INFO(path << "\n" << file_with(row, sample(row)).text());
-        auto const refused = [&](std::string const& value, std::string const& message, std::uint64_t broken = 0) {
+        auto const refused = [&](std::string const& value, std::string const& message) {
             INFO(value);
-            REQUIRE_THAT(answer(file_with(row, value, broken)), contains_text(message));
+            REQUIRE_THAT(answer(file_with(row, value)), contains_text(message));
         };
-        // A good value: what is missing elsewhere is refused, if anything.
+        // An allowed value: a refusal, if any, names another key.
         auto const good = answer(file_with(row, sample(row)));
         if (std::string_view(row.path).find('.') != std::string_view::npos && row.what != kind::tables && row.what != kind::table) {
             REQUIRE(good.rfind(path + " = ", 0) == std::string::npos);
@@ -165,12 +167,12 @@ TEST_CASE("each key is read as its row says", "[keys]") {
         }
         // A wrong type.
         if (std::string_view(row.path) != "materials.*") refused("1979-05-27", path + " = a date or time: must be ");
-        // A key that is nearly that one.
+        // A misspelt key.
         tree misspelt = file_with(row, sample(row));
         misspelt.set(std::string(row.path) + (row.what == kind::named ? "q.q" : "q"), sample(row));
         if (std::string_view(row.path).back() != '*')
             REQUIRE_THAT(answer(misspelt), contains_text(path + "q = ") && contains_text("must be a known key (did you mean"));
-        // Outside of what is good.
+        // Numbers outside the range.
         if (row.what == kind::number || row.what == kind::each_number || row.what == kind::step) {
             if (std::isfinite(row.good.least)) refused(number_text(row.good.least - 1), "must be " + std::string(row.good.text));
             if (row.good.above_least) refused(number_text(row.good.least), path + " = " + lacuna::to_text(row.good.least) + ": must be");
@@ -183,7 +185,7 @@ TEST_CASE("each key is read as its row says", "[keys]") {
             refused("1.5", path + " = 1.5: must be a whole number");
         }
         if (row.what == kind::word) refused("\"qqqqqqqqqq\"", path + " = \"qqqqqqqqqq\": must be one of ");
-        // Where it means nothing.
+        // Each condition violated.
         for (condition const& c : conditions)
             if ((row.where & c.what) != 0 && *c.otherwise != '\0') {
                 auto const message = answer(file_with(row, sample(row), c.what));
@@ -193,7 +195,7 @@ TEST_CASE("each key is read as its row says", "[keys]") {
     }
 }
 
-TEST_CASE("the README and --help show the keys that there are", "[keys]") {
+TEST_CASE("the README and --help show all keys", "[keys]") {
     std::string const readme = program::read_file(std::string(LACUNA_RUN_CASES) + "/../README.md");
     std::string const help = keys_help();
     std::string all;

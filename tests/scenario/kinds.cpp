@@ -21,11 +21,11 @@ namespace {
 
 std::string case_text(std::string const& name) { return program::read_file(std::string(LACUNA_RUN_CASES) + "/" + name + ".toml"); }
 
-/// The same text with another piece in place of each one that is there.
-std::string with(std::string text, std::string const& old, std::string const& fresh) {
+/// The text with each occurrence of `old` replaced.
+std::string with(std::string text, std::string const& old, std::string const& replacement) {
     std::size_t count = 0;
-    for (auto at = text.find(old); at != std::string::npos; at = text.find(old, at + fresh.size()), ++count)
-        text.replace(at, old.size(), fresh);
+    for (auto at = text.find(old); at != std::string::npos; at = text.find(old, at + replacement.size()), ++count)
+        text.replace(at, old.size(), replacement);
     if (count == 0) throw std::invalid_argument("no " + old + " in the scenario");
     return text;
 }
@@ -57,7 +57,7 @@ TEST_CASE("collision of two discs in single precision (1a)", "[cases][reference]
     REQUIRE_THAT(deepest(t), WithinRel(reference("1a.delta_max"), 5e-3));
     REQUIRE_THAT(strongest(t), WithinRel(reference("1a.F_max"), 5e-3));
     REQUIRE_THAT(t.last("velocity.x[0]"), WithinRel(-0.05 * reference("1a.e"), 1e-3));
-    // A number of single precision, not of double.
+    // The number has single precision.
     double const x = t.last("position.x[0]");
     REQUIRE(x == double(float(x)));
 }
@@ -66,7 +66,8 @@ TEST_CASE("a sphere hits a wall and does not slip, in double and in single preci
     std::string const id = "1d.no_slip_sphere_ks/kn=0.5";
     auto const text = case_text("oblique_sphere");
     for (bool const single : {false, true}) {
-        // In a shorter step rounding would show: a sphere that comes at 0.01 m/s, half a metre from the origin.
+        // A longer step in single precision: with the short one rounding would show, at 0.01 m/s and 0.5 m from the
+        // origin.
         auto const t = run_text(single ? "oblique_sphere_float" : "oblique_sphere",
                                 single ? with(with(with(text, "dimension = 3", "dimension = 3\nreal = \"float\""),
                                                    "time_step = 1e-5", "time_step = 5e-4"),
@@ -96,7 +97,7 @@ TEST_CASE("Hertzian collisions, in space and in the plane, in double and in sing
     for (bool const single : {false, true})
         for (bool const flat : {false, true}) {
             auto text = flat ? plane : space;
-            // In a shorter step rounding would show.
+            // A longer step in single precision: with the short one rounding would show.
             if (single)
                 text = with(with(with(text, "time_step = 2.22955e-05", "time_step = 2.22955e-04"), "steps = 2400", "steps = 240"),
                             "[simulation]", "[simulation]\nreal = \"float\"");
@@ -183,7 +184,7 @@ TEST_CASE("a checkpoint that does not belong to a scenario is refused", "[progra
     refused(whole, "half.bin", "truncated");
 }
 
-TEST_CASE("VTK files and pictures show what the run has", "[program]") {
+TEST_CASE("VTK files and pictures show the state of the run", "[program]") {
     folder const here("block_shown");
     here.write("case.toml", case_text("block"));
     REQUIRE(here.run("--quiet case.toml").status == 0);

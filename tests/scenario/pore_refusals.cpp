@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Decks whose particles leave no pores, or whose fluid flows too fast for its solver: refused as the deck's fault, status 2, with
-// the deck's numbers, and nothing is written.
+// Decks whose particles enclose no pores, or whose fluid is too fast for its solver. They are refused with status 2 and
+// the deck's own particle numbers, and nothing is written.
 
 #include <algorithm>
 #include <string>
@@ -42,7 +42,7 @@ TEST_CASE("particles without pores are named as the deck numbers them", "[fluid]
         std::string places;
         std::vector<std::string> says;
     };
-    // Against the order in which the simulation keeps them.
+    // In another order than the one in which the simulation stores them.
     for (one const& c : {one{"[[4.0, 0.0], [3.0, 0.0], [2.0, 0.0], [1.0, 0.0], [0.0, 0.0]]",
                              {"fluid: number of pores = 0: must be at least 1", "on one line", "particle 0 at (4, 0) m", "particle 4 at (0, 0) m"}},
                          one{"[[90.0, 9.0], [50.0, 40.0], [50.0, 0.0], [1.0, 0.0], [0.0, 0.0]]",
@@ -65,7 +65,7 @@ TEST_CASE("particles without pores are named as the deck numbers them", "[fluid]
     CHECK_THAT(ran.err, contains_text("position of particle 1 = 1e+75: must be from -1e70 to 1e70 m"));
 }
 
-TEST_CASE("explicit flow of more steps than can be made is refused, not called file trouble", "[fluid][program]") {
+TEST_CASE("explicit flow that needs too many steps is refused as an error of the deck", "[fluid][program]") {
     folder const here("too_many_flow_steps");
     std::string const body = "[[0.0, 0.0], [1.0, 0.0], [0.5, 0.8660254], [1.5, 0.8660254]]";
     // V / (K_f C): the void of a triangle of discs, and C = k a^3 / l of the only throat.
@@ -81,7 +81,7 @@ TEST_CASE("explicit flow of more steps than can be made is refused, not called f
         REQUIRE(at != ran.err.npos);
         CHECK_THAT(std::stod(ran.err.substr(at + before.size())), WithinRel(limit, 1e-5));
     }
-    // Where pores merge the first step tells.
+    // With merging pores the limit is known only after the first step.
     here.clear();
     here.write("case.toml", deck(body, motion::coupled, "conductivity = 1e12\nmerge_conductance = 1e30\n"));
     auto const ran = here.run("--quiet case.toml");
@@ -89,7 +89,7 @@ TEST_CASE("explicit flow of more steps than can be made is refused, not called f
     CHECK_THAT(ran.err, contains_text("time_step = 0.001 s: must be at most ") && contains_text("100000 substeps of explicit flow"));
 }
 
-TEST_CASE("a run whose throats open too far for explicit flow ends marked, with what it has told", "[fluid][program]") {
+TEST_CASE("a run whose throats open too far for explicit flow ends as unstable and keeps its results", "[fluid][program]") {
     folder const here("throats_that_open");
     here.write("case.toml",
                deck("[[0.0, 0.0], [1.0, 0.0], [0.5, 0.8660254], [1.5, 0.8660254]]", motion::coupled,

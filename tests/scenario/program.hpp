@@ -16,7 +16,7 @@
 #include <sys/wait.h>
 
 /// \file
-/// Runs the program lacuna-run as a person would, each time in an empty folder, and reads what it leaves.
+/// Runs the program lacuna-run in an empty folder and reads its output files.
 
 namespace program {
 
@@ -33,7 +33,7 @@ struct result {
     std::string out, err;
 };
 
-/// A folder of its own for each test, empty at first.
+/// A separate folder for each test, empty at first.
 class folder {
 public:
     explicit folder(std::string const& name) : path_(fs::path(LACUNA_RUN_SCRATCH) / name) {
@@ -91,7 +91,7 @@ struct table {
         heading = cells(line);
         while (std::getline(text, line)) rows.push_back(cells(line));
     }
-    /// The numbers of a column; cells that are empty are left out.
+    /// The numbers of a column without its empty cells.
     std::vector<double> column(std::string const& name) const {
         std::vector<double> numbers;
         for (std::size_t c = 0; c < heading.size(); ++c)

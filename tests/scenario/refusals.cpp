@@ -11,7 +11,7 @@ using program::folder;
 
 namespace {
 
-/// A scenario with everything in it, small and quick.
+/// A small, quick scenario with all sections.
 std::string const whole = R"([simulation]
 dimension = 2
 real = "double"
@@ -86,12 +86,12 @@ picture_every = 0
 checkpoint_every = 0
 )";
 
-/// The scenario with one line in place of another.
-std::string with(std::string const& old, std::string const& fresh) {
+/// The scenario with `old` replaced.
+std::string with(std::string const& old, std::string const& replacement) {
     auto const at = whole.find(old);
     REQUIRE(at != std::string::npos);
     std::string text = whole;
-    return text.replace(at, old.size(), fresh);
+    return text.replace(at, old.size(), replacement);
 }
 
 std::string refusal(std::string const& text) {
@@ -105,19 +105,19 @@ std::string refusal(std::string const& text) {
 
 } // namespace
 
-TEST_CASE("a scenario with everything is accepted", "[refusal]") {
+TEST_CASE("a scenario with all sections is accepted", "[refusal]") {
     REQUIRE(refusal(whole) == "accepted");
     auto const s = lacuna_run::read_scenario(whole, "case.toml", "");
-    REQUIRE(s.bodies.size() == 3);
-    REQUIRE(s.joints.pairs.size() == 1);
+    REQUIRE(s.particles.size() == 3);
+    REQUIRE(s.bonds.pairs.size() == 1);
     REQUIRE(s.loads.size() == 2);
-    REQUIRE(s.water->sources.size() == 1);
+    REQUIRE(s.fluid->sources.size() == 1);
     REQUIRE(s.probes[0].column == "position.x[1]");
 }
 
 TEST_CASE("each bad value is refused by its path", "[refusal]") {
     struct one {
-        std::string old, fresh, message;
+        std::string old, replacement, message;
     };
     one const cases[] = {
         // unknown keys, with the nearest known one
@@ -179,20 +179,20 @@ TEST_CASE("each bad value is refused by its path", "[refusal]") {
         {"pairs = [[0, 1]]", "pairs = [[0, 3]]", "bonds.pairs[0][1] = 3: must be from 0 to 2, the last of the particles"},
         {"pairs = [[0, 1]]", "pairs = [[0, -1]]", "bonds.pairs[0][1] = -1: must be from 0 to 2"},
         {"pairs = [[0, 1]]", "pairs = [[1, 1]]", "bonds.pairs[0] = [...]: must be two different particles"},
-        {"pairs = [[0, 1]]", "pairs = [[0, 1], [1, 0]]", "bonds.pairs[1] = [...]: must be a pair that is not there yet"},
+        {"pairs = [[0, 1]]", "pairs = [[0, 1], [1, 0]]", "bonds.pairs[1] = [...]: must be a pair that was not listed before"},
         {"particles = [1]", "particles = [7]", "loads[0].particles[0] = 7: must be from 0 to 2"},
         {"fix = [ { particles = [0]", "fix = [ { particles = [9]", "particles.fix[0].particles[0] = 9: must be from 0 to 2"},
         {"particle = 1\n", "particle = 3\n", "probes[0].particle = 3: must be from 0 to 2"},
         {"quantity = \"position.x\"\nparticle = 1", "quantity = \"bond.broken\"\nbond = 1",
          "probes[0].bond = 1: must be from 0 to 0, the last of the bonds"},
         {"quantity = \"position.x\"\nparticle = 1", "quantity = \"wall.force.x\"\nwall = 2", "probes[0].wall = 2: must be from 0 to 0"},
-        // what does not go together
+        // keys that exclude each other
         {"quantity = \"position.x\"\nparticle = 1", "quantity = \"energy.kinetic\"\nparticle = 1",
          "probes[0].particle = 1: must be left out"},
         {"quantity = \"position.x\"", "quantity = \"position.z\"", "probes[0].quantity = \"position.z\": must be a known quantity"},
         {"pairs = [[0, 1]]", "pairs = [[0, 1]]\nbending_stiffness = 1.0", "bonds.bending_stiffness = 1: must be left out"},
         {"pairs = [[0, 1]]", "pairs = [[0, 1]]\nshear_stiffness = [1.0, 2.0]", "bonds.shear_stiffness = [...]: must be one value or one per bond"},
-        {"pairs = [[0, 1]]", "pairs = [[0, 1]]\ntensile_force = 1.0", "materials.matrix.tensile_strength = 1e+300: must be left out: no bond takes it"},
+        {"pairs = [[0, 1]]", "pairs = [[0, 1]]\ntensile_force = 1.0", "materials.matrix.tensile_strength = 1e+300: must be left out: no bond uses it"},
         {"time_step = \"auto\"", "time_step = 1e-9", "simulation.safety = 0.2: must be left out: time_step is given"},
         {"gravity = [0.0, 0.0]", "gravity = [0.0, 0.0]\nfluid_density = 1.0", "simulation.fluid_density = 1: must be left out: there is no gravity"},
         {"mechanical_coupling = true", "mechanical_coupling = false", "must be left out: fluid.mechanical_coupling is false: particles do not move"},
@@ -208,11 +208,11 @@ TEST_CASE("each bad value is refused by its path", "[refusal]") {
         {"force = [10.0, 0.0]", "force = [10.0, 0.0]\nvelocity = [1.0, 0.0]", "loads[0].force = [...]: must be left out: velocity is given"},
     };
     for (auto const& c : cases) {
-        INFO(c.old << " -> " << c.fresh);
-        REQUIRE_THAT(refusal(with(c.old, c.fresh)), contains_text(c.message));
+        INFO(c.old << " -> " << c.replacement);
+        REQUIRE_THAT(refusal(with(c.old, c.replacement)), contains_text(c.message));
     }
     REQUIRE_THAT(refusal("simulation = [\n"), contains_text("case.toml:"));
-    // Letters that are not ASCII, where a blank could stand.
+    // Non-ASCII letters where a blank would be allowed.
     for (char const* letter : {"\u00e9", "\u0498", "\u3042"})
         for (char const* before : {"", "steps = 1", "steps ", "[simulation]", "a = [1, "})
             REQUIRE_THAT(refusal(std::string(before) + letter + " = 1\n"), contains_text("case.toml:1:"));
@@ -285,7 +285,7 @@ TEST_CASE("particles from a file", "[program]") {
     other.write("case.toml", whole);
     REQUIRE(other.run("--quiet case.toml").status == 0);
     REQUIRE(probes.rows == program::table(other / "out/probes.csv").rows);
-    // As a spreadsheet with decimal commas writes it, and with densities in place of the materials'.
+    // With decimal commas, as spreadsheets write them, and with densities that replace the materials'.
     auto const rows_of = [&](std::string const& name, std::string const& particles) {
         folder const there(name);
         there.write("case.toml", text);

@@ -13,20 +13,20 @@
 #include "scenario/program.hpp"
 
 /// \file
-/// A run that goes on from a checkpoint with another deck: what may change acts, all else is refused by its key.
+/// Restart with a changed deck: allowed changes take effect, every other change is refused by its key.
 
 using program::folder;
 using program::table;
 
 namespace {
 
-std::string with(std::string text, std::string const& old, std::string const& fresh) {
+std::string with(std::string text, std::string const& old, std::string const& replacement) {
     auto const at = text.find(old);
     if (at == std::string::npos || text.find(old, at + 1) != std::string::npos) throw std::invalid_argument(old + " is not there once");
-    return text.replace(at, old.size(), fresh);
+    return text.replace(at, old.size(), replacement);
 }
 
-/// The probes of a run of `first`, and of one that goes on from its checkpoint with `second`.
+/// Runs `first`, then restarts from its checkpoint with `second`. \return the probes
 table two_stages(std::string const& name, std::string const& first, std::string const& second) {
     folder const here(name);
     here.write("first.toml", first + "[output]\ndirectory = \"first\"\ncheckpoint_every = 1\n");
@@ -85,7 +85,7 @@ every = 50
 
 namespace {
 
-/// Two discs, or spheres, that touch nobody; what drives the first, or both, stands in `loads`.
+/// Two discs or spheres without contact; `loads` drive the first or both.
 std::string free_bodies(int steps, std::string const& loads, bool space = false, bool single = false) {
     std::string const z = space ? ", 0.0" : "";
     return "[simulation]\ntime_step = 0.01\nsteps = " + std::to_string(steps) + (space ? "\ndimension = 3" : "") +
@@ -118,7 +118,7 @@ std::string load(std::string const& what, double ramp = 0, std::string const& pa
 
 } // namespace
 
-TEST_CASE("a force that is another one at a restart starts from the one that acts then", "[restart]") {
+TEST_CASE("a force changed at a restart starts from the force that acts then", "[restart]") {
     double const disc = 1000 * std::numbers::pi * 0.25, sphere = 1000 * std::numbers::pi / 6;
     for (bool const space : {false, true})
         for (bool const single : {false, true}) {
@@ -143,17 +143,18 @@ TEST_CASE("a force that is another one at a restart starts from the one that act
         }
 }
 
-TEST_CASE("pressures, prescribed velocities, steps and probes that are others at a restart act", "[restart]") {
+TEST_CASE("pressures, prescribed velocities, steps and probes changed at a restart take effect", "[restart]") {
     auto const run = [](std::string const& first, std::string const& second) {
         return two_stages("restart_other", free_bodies(50, first), free_bodies(100, second));
     };
-    // Pressure on the top: pi r^2 of it pushes each disc down, 1 Pa on a disc of 1000 kg/m^3: 1e-3 m/s^2.
+    // Pressure on the top acts on pi r^2 of each disc: 1 Pa on a disc of 1000 kg/m^3 gives 1e-3 m/s^2.
     auto const pressed = run(load("pressure = 1000.0\narea = \"disc\"", 0, ""), load("pressure = 3000.0\narea = \"disc\"\nside = \"bottom\"", 0, ""));
     REQUIRE_THAT(pressed.last("velocity.y[1]"), WithinRel(-2.0 + 0.5 * (-1.0 + 3.0), 1e-12));
-    // From 0.5 m/s, half way up a ramp to 1 m/s, to 3 m/s within 0.2 s; let go, it keeps what it has and falls.
+    // From 0.5 m/s, half way up a ramp to 1 m/s, to 3 m/s within 0.2 s. Released, the disc keeps its velocity and
+    // falls.
     std::string const slow = load("velocity = [1.0, 0.0]", 1.0), fast = load("velocity = [3.0, 0.0]", 0.2);
     REQUIRE_THAT(run(slow, fast).last("velocity.x[0]"), WithinRel(3.0, 1e-12));
-    REQUIRE_THAT(run(slow, slow).last("velocity.x[0]"), WithinRel(0.995, 1e-12)); // mean of the last step
+    REQUIRE_THAT(run(slow, slow).last("velocity.x[0]"), WithinRel(0.995, 1e-12)); // mean over the last step
     auto const let_go = run(slow, "");
     REQUIRE_THAT(let_go.last("velocity.x[0]"), WithinRel(0.495, 1e-12));
     REQUIRE_THAT(let_go.last("velocity.y[0]"), WithinRel(-1.0, 1e-12));
@@ -165,7 +166,7 @@ TEST_CASE("pressures, prescribed velocities, steps and probes that are others at
     REQUIRE_THAT(other.last("velocity.y[0]"), WithinRel(-1.2, 1e-12));
 }
 
-TEST_CASE("a run in three stages goes on from the second's loads, to the bits of two", "[restart][checkpoint]") {
+TEST_CASE("a third stage continues from the loads of the second, with the same bits as two stages", "[restart][checkpoint]") {
     folder const here("restart_thrice");
     std::string const before = load("force = [100.0, 0.0]", 1.0), after = load("force = [300.0, 5.0]", 0.8);
     std::string const every = "[output]\ncheckpoint_every = 10\ndirectory = ";
@@ -266,9 +267,9 @@ aperture = 0.015
 length = 0.25
 )";
 
-/// One key with another value, and the place that the refusal names.
+/// One key with another value, and the path that the refusal names.
 struct change {
-    std::string key, old, fresh, path;
+    std::string key, old, replacement, path;
 };
 
 void check_refused(std::string const& name, std::string const& deck, std::vector<change> const& changes, std::set<std::string>& seen) {
@@ -279,13 +280,13 @@ void check_refused(std::string const& name, std::string const& deck, std::vector
     INFO(ran.err);
     REQUIRE(ran.status == 0);
     for (change const& c : changes) {
-        here.write("other.toml", with(deck, c.old, c.fresh));
-        auto const said = here.run("--check --restart out/checkpoint.bin other.toml");
-        INFO(c.key << ": " << said.err);
-        CHECK(said.status == 2);
-        CHECK(std::count(said.err.begin(), said.err.end(), '\n') == 1);
-        CHECK_THAT(said.err, contains_text("checkpoint out/checkpoint.bin: it was made with " + c.path + " = "));
-        CHECK_THAT(said.err, contains_text(", the deck says "));
+        here.write("other.toml", with(deck, c.old, c.replacement));
+        auto const ran = here.run("--check --restart out/checkpoint.bin other.toml");
+        INFO(c.key << ": " << ran.err);
+        CHECK(ran.status == 2);
+        CHECK(std::count(ran.err.begin(), ran.err.end(), '\n') == 1);
+        CHECK_THAT(ran.err, contains_text("checkpoint out/checkpoint.bin: it was made with " + c.path + " = "));
+        CHECK_THAT(ran.err, contains_text(", the deck says "));
         seen.insert(c.key);
     }
     here.write("other.toml", deck);
@@ -362,11 +363,11 @@ std::vector<change> const of_bare{
 
 } // namespace
 
-TEST_CASE("each key that is another one at a restart is refused by its path, or may change", "[restart][refusal][checkpoint]") {
+TEST_CASE("each key changed at a restart is refused by its path, or may change", "[restart][refusal][checkpoint]") {
     std::set<std::string> seen;
     check_refused("restart_body", body, of_body, seen);
     check_refused("restart_bare", bare, of_bare, seen);
-    // With the step of "auto" and the materials' own strengths.
+    // Keys that apply only with time_step = "auto" and strengths of materials.
     auto strong = with(with(body, "time_step = 1e-6\n", "safety = 0.2\n"), "tensile_force = 1e8\nshear_force = 9e7\n", "");
     strong = with(strong, "friction = 0.2\n", "friction = 0.2\ntensile_strength = 4e8\nshear_strength = 3e8\n");
     check_refused("restart_strong", strong,
@@ -417,7 +418,7 @@ mechanical_coupling = false
                    {"walls[].poisson_ratio", "poisson_ratio = 0.3", "poisson_ratio = 0.35", "walls[0].poisson_ratio"},
                    {"bonds.bending_stiffness", "7e5", "8e5", "bonds.bending_stiffness[0]"}},
                   seen);
-    // By what they bring: a file, the gap of touching particles, the number of dimensions.
+    // Keys compared by their effect: a file, the gap of touching particles, the dimension.
     auto const from_file = std::string(R"(
 [simulation]
 steps = 3
@@ -443,7 +444,7 @@ gap = 1e-5
                    {"simulation.dimension",
                     "steps = 3\ntime_step = 1e-6\n", "steps = 3\ntime_step = 1e-6\nreal = \"float\"\n", "simulation.real"}},
                   seen);
-    seen.insert("bonds.gap");            // as touching: by the pairs
+    seen.insert("bonds.gap");            // compared by the pairs, as touching
     seen.insert("simulation.dimension"); // every point changes with it
     for (auto const& row : lacuna_run::keys) {
         std::string const path = row.path;
@@ -458,7 +459,7 @@ gap = 1e-5
     }
 }
 
-TEST_CASE("another way to write the same scenario goes on", "[restart][checkpoint]") {
+TEST_CASE("the same scenario written in another way continues", "[restart][checkpoint]") {
     folder const here("restart_same");
     here.write("case.toml", body + "[output]\ncheckpoint_every = 3\n");
     REQUIRE(here.run("--quiet case.toml").status == 0);

@@ -13,8 +13,8 @@
 #include "key_table.hpp"
 
 /// \file
-/// No key is silent: in a run of each kind each key of the table is given, or changed, alone. Then some byte of what the
-/// run writes is another, or the scenario is refused by the path of a key.
+/// No key is ignored silently. In a run of each kind every key of the table is added or changed alone. Then some byte
+/// of the results must differ, or the scenario must be refused by the path of a key.
 
 using namespace lacuna_run;
 
@@ -22,7 +22,7 @@ namespace {
 
 using settings = std::vector<std::pair<char const*, char const*>>;
 
-/// Two good values for each key: where one stands already, the other is tried.
+/// Two allowed values for each key; the one that the deck does not have is tried.
 std::map<std::string_view, std::pair<char const*, char const*>> const values{
     {"simulation.dimension", {"3", "2"}},
     {"simulation.real", {"\"float\"", "\"double\""}},
@@ -127,9 +127,8 @@ std::map<std::string_view, std::pair<char const*, char const*>> const values{
     {"output.checkpoint_every", {"5", "10"}},
 };
 
-/// Keys that change no byte where nothing is wrong: results do not depend on the number of threads, a step that is
-/// allowed to be unstable may be stable, a fluid that is not pulled does not tear, and a mesh that fits stays,
-/// and guards are silent where nothing is wrong.
+/// Keys that change no byte of a healthy run: results do not depend on the number of threads, a step that may be
+/// unstable can be stable, a fluid that is not pulled does not tear, a mesh that fits stays, and guards do not act.
 bool is_exempt(std::string_view path) {
     for (std::string_view const one : {"simulation.threads", "simulation.allow_unstable_step", "fluid.minimum_pressure"})
         if (path == one) return true;
@@ -173,7 +172,7 @@ settings const water{
     {"particles.velocity", "[[0.0, 0.0], [0.0, 0.0], [0.3, -0.5], [0.0, 0.0]]"},
     {"particles.spin", "[0.0, 0.0, 0.3, 0.0]"},
 };
-/// Of flow alone.
+/// A deck of flow alone.
 settings const rigid{
     {"simulation.steps", "20"},
     {"particles.position", "[[0.0, 0.0], [1.1, 0.0], [0.5, 0.95], [1.6, 0.95], [2.2, 0.0]]"},
@@ -213,7 +212,7 @@ tree deck_of(std::vector<settings> const& parts) {
 
 struct outcome {
     int status = 0;
-    std::string said, files;
+    std::string message, files;
 };
 
 outcome outcome_of(program::folder const& here, tree const& deck) {
@@ -228,7 +227,7 @@ outcome outcome_of(program::folder const& here, tree const& deck) {
     return o;
 }
 
-/// Whether a refusal is of a key, by its path.
+/// Whether a refusal begins with the path of a key.
 bool names_a_key(std::string const& message) {
     for (char const* section : sections)
         if (message.rfind(section, 0) == 0) return true;
@@ -239,13 +238,13 @@ void try_all_keys(std::string const& name, tree const& deck) {
     program::folder const here("silent_" + name);
     outcome const before = outcome_of(here, deck);
     INFO(deck.text());
-    INFO(before.said);
+    INFO(before.message);
     REQUIRE(before.status == 0);
     std::string silent;
     for (key const& row : keys) {
         if (row.what == kind::table || row.what == kind::named || (row.what == kind::tables && !values.count(row.path))) continue;
         if (is_exempt(row.path)) continue;
-        // A material may be described in full, whatever of it a run takes.
+        // A material may have values that this run does not use.
         std::string_view const path = row.path;
         {
             bool soft = false;
@@ -259,14 +258,14 @@ void try_all_keys(std::string const& name, tree const& deck) {
         tree changed = deck;
         auto const* now = deck.find(row.path);
         if (row.what == kind::tables && now != nullptr && now->list) continue;
-        std::string fresh = now != nullptr && now->value == found->second.first ? found->second.second : found->second.first;
-        // Of lists the first number is another.
-        if (fresh.empty()) fresh = now != nullptr ? "[[0.01" + now->value.substr(now->value.find_first_of(",]")) : "[]";
-        if (fresh[1] == '[' && now != nullptr && now->value[1] != '[') fresh.erase(0, 1);
-        changed.set(row.path, fresh);
+        std::string replacement = now != nullptr && now->value == found->second.first ? found->second.second : found->second.first;
+        // In lists the first number is changed.
+        if (replacement.empty()) replacement = now != nullptr ? "[[0.01" + now->value.substr(now->value.find_first_of(",]")) : "[]";
+        if (replacement[1] == '[' && now != nullptr && now->value[1] != '[') replacement.erase(0, 1);
+        changed.set(row.path, replacement);
         outcome const after = outcome_of(here, changed);
-        bool const heard = after.status == 2 ? names_a_key(after.said) : after.status == 0 && after.files != before.files;
-        if (!heard) silent += std::string(row.path) + ": status " + std::to_string(after.status) + " " + after.said + "\n";
+        bool const heard = after.status == 2 ? names_a_key(after.message) : after.status == 0 && after.files != before.files;
+        if (!heard) silent += std::string(row.path) + ": status " + std::to_string(after.status) + " " + after.message + "\n";
     }
     INFO(silent);
     REQUIRE(silent.empty());

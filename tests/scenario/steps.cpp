@@ -8,7 +8,7 @@
 #include "scenario/program.hpp"
 
 /// \file
-/// The time step of a run that begins with nothing in touch.
+/// The time step of a run that starts without contacts.
 
 using program::folder;
 using program::table;
@@ -28,8 +28,9 @@ std::string two_spheres(std::string const& simulation, std::string const& stiffn
 
 } // namespace
 
-TEST_CASE("stiffnesses that the contacts do not have do not choose the step", "[step]") {
-    // Hertz: k = 4/3 E* sqrt(R), deepest (1.25 m v^2 / k)^0.4, with E* = 1e9 / 1.82, R = 5 mm, half of 2500 kg/m^3 times the volume.
+TEST_CASE("stiffnesses that no contact uses do not affect the time step", "[step]") {
+    // Hertz: k = 4/3 E* sqrt(R), largest overlap (1.25 m v^2 / k)^0.4, with E* = 1e9 / 1.82, R = 5 mm, half of 2500
+    // kg/m^3 times the volume.
     double const k = 4.0 / 3 * 1e9 / 1.82 * std::sqrt(0.005), mass = 2500 * 4.0 / 3 * std::acos(-1.0) * 1e-6 / 2;
     double const force = k * std::pow(1.25 * mass * 0.04 / k, 0.6);
     std::string same;
@@ -49,7 +50,7 @@ TEST_CASE("stiffnesses that the contacts do not have do not choose the step", "[
     }
 }
 
-TEST_CASE("what has no stiffness has no step", "[step][refusal]") {
+TEST_CASE("without any stiffness there is no automatic time step", "[step][refusal]") {
     folder const here("step_none");
     here.write("a.toml", "[simulation]\ncontact_law = \"none\"\nbond_law = \"none\"\nsteps = 1\n[materials.m]\ndensity = 1.0\n"
                          "normal_stiffness = 1.0\nshear_stiffness = 1.0\nfriction = 0.0\n[particles]\nposition = [[0.0, 0.0]]\n"
@@ -59,7 +60,7 @@ TEST_CASE("what has no stiffness has no step", "[step][refusal]") {
     CHECK_THAT(ran.err, contains_text("simulation.time_step = \"auto\": must be a number of seconds"));
 }
 
-TEST_CASE("a given step that the contact makes unsafe ends the run with both numbers", "[step][refusal]") {
+TEST_CASE("a given step that a contact makes unstable ends the run with both numbers", "[step][refusal]") {
     folder const here("step_given");
     here.write("a.toml", two_spheres("time_step = 1e-3\n", ""));
     auto const ran = here.run("--quiet a.toml");

@@ -7,14 +7,14 @@
 #include <utility>
 
 /// \file
-/// Scenarios that tests put together key by key.
+/// Scenarios that tests build key by key.
 
 /// A small TOML file as a tree: inline tables within inline tables.
 struct tree {
     std::map<std::string, tree> below;
     std::string value;
     bool list = false;
-    std::string further; ///< entries of the list behind the first, ", { ... }"
+    std::string further; ///< further entries of the list, ", { ... }"
 
     /// \param path "loads[].force", "materials.*.density"
     void set(std::string_view path, std::string const& to) {
@@ -29,7 +29,7 @@ struct tree {
         else
             one.set(path.substr(dot + 1), to);
     }
-    /// What stands there, or nothing.
+    /// The entry at that path, or nullptr.
     tree const* find(std::string_view path) const {
         auto const dot = path.find('.');
         std::string name(path.substr(0, dot));
@@ -47,9 +47,9 @@ struct tree {
     }
 };
 
-/// The key's path as refusals tell it.
-inline std::string told_path(std::string path) {
-    for (auto const& [old, fresh] : {std::pair<std::string, std::string>{"[]", "[0]"}, {"*", "matrix"}})
-        for (auto at = path.find(old); at != path.npos; at = path.find(old, at + fresh.size())) path.replace(at, old.size(), fresh);
+/// The key's path as in refusals.
+inline std::string refused_path(std::string path) {
+    for (auto const& [old, replacement] : {std::pair<std::string, std::string>{"[]", "[0]"}, {"*", "matrix"}})
+        for (auto at = path.find(old); at != path.npos; at = path.find(old, at + replacement.size())) path.replace(at, old.size(), replacement);
     return path;
 }

@@ -45,7 +45,7 @@ public:
         simulation copy = this->simulated();
         // More than 1000 fluid steps per particle step take too long here.
         if constexpr (lacuna::has_fluid<Model>)
-            if (scenario_.water && !scenario_.water->implicit && copy.resolve_time_step() > 1000 * copy.flow().mean_throat_limit())
+            if (scenario_.fluid && !scenario_.fluid->implicit && copy.resolve_time_step() > 1000 * copy.flow().mean_throat_limit())
                 throw other_kind();
         step_facts f;
         try {
@@ -91,7 +91,7 @@ private:
             double most = 0;
             for (auto const& m : scenario.materials) most = std::max({most, m.normal_stiffness, m.shear_stiffness});
             for (auto const& w : scenario.walls) most = std::max({most, w.normal_stiffness, w.shear_stiffness});
-            for (auto const& b : scenario.joints.values)
+            for (auto const& b : scenario.bonds.values)
                 most = std::max({most, b.normal_stiffness.value_or(0.0), b.shear_stiffness.value_or(0.0)});
             return most;
         }
@@ -108,13 +108,13 @@ private:
             double const critical = sim.limits().critical(), step = sim.resolve_time_step();
             f.share = std::max(f.share, step / critical);
             double const stiffness = std::max(4 * heaviest / (critical * critical), stated_stiffness());
-            double const pairs = double(sim.size()) * (dim == 2 ? 4 : 8) + double(scenario.joints.pairs.size());
+            double const pairs = double(sim.size()) * (dim == 2 ? 4 : 8) + double(scenario.bonds.pairs.size());
             double momentum = momenta + step * pairs * std::sqrt(2 * stiffness * f.energy);
             // The error of a position, and of a spring's length, is epsilon times the distance from the origin.
             double const blur = epsilon * reach;
             double energy = epsilon * f.energy + pairs * (std::sqrt(stiffness * f.energy) * blur + stiffness * blur * blur);
             if constexpr (lacuna::has_fluid<Model>)
-                if (scenario.water) {
+                if (scenario.fluid) {
                     auto const& net = sim.flow().network();
                     double pressure = 0;
                     for (std::size_t p = 0; p < net.pores(); ++p) pressure = std::max(pressure, std::fabs(double(net.pressure[p])));
