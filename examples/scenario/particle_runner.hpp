@@ -181,7 +181,7 @@ auto particle_runner<Model>::drives_of(scenario const& s) -> std::vector<drive> 
         drive& d = all[std::size_t(id)];
         if (d.loaded && d.load_ramp != l.ramp_time)
             refuse("loads[" + std::to_string(number) + "].ramp_time", lacuna::to_text(l.ramp_time),
-                   "that of the other loads on particle " + std::to_string(id) + ", " + lacuna::to_text(d.load_ramp));
+                   "equal to that of the other loads on particle " + std::to_string(id) + ", " + lacuna::to_text(d.load_ramp));
         d.force += to_vec<dim>(force);
         d.torque += to_vec<lacuna::rotation_dim<dim>>(torque);
         d.load_ramp = l.ramp_time;

@@ -263,7 +263,7 @@ void check_loads(scenario const& s) {
             } else {
                 if (forced[k] >= 0 && s.loads[std::size_t(forced[k])].ramp_time != s.loads[n].ramp_time)
                     refuse(path + ".ramp_time", lacuna::to_text(s.loads[n].ramp_time),
-                           "that of loads[" + std::to_string(forced[k]) + "], which also acts on particle " +
+                           "equal to that of loads[" + std::to_string(forced[k]) + "], which also acts on particle " +
                                std::to_string(id));
                 forced[k] = std::int32_t(n);
             }

@@ -184,7 +184,7 @@ TEST_CASE("a third stage continues from the loads of the second, with the same b
 
 namespace {
 
-std::string const body = R"(
+std::string const coupled = R"(
 [simulation]
 steps = 3
 dimension = 2
@@ -293,7 +293,7 @@ void check_refused(std::string const& name, std::string const& deck, std::vector
     CHECK(here.run("--check --restart out/checkpoint.bin other.toml").status == 0);
 }
 
-std::vector<change> const of_body{
+std::vector<change> const coupled_changes{
     {"simulation.real", "\"double\"", "\"float\"", "simulation.real"},
     {"simulation.mass", "mass = \"disc\"", "mass = \"sphere\"", "simulation.mass"},
     {"simulation.contact_law", "\"frictional_spring\"", "\"hertz_mindlin\"", "simulation.contact_law"},
@@ -352,7 +352,7 @@ std::vector<change> const of_body{
     {"fluid.minimum_pressure", "merge_conductance = 1e9\n", "merge_conductance = 1e9\nminimum_pressure = -5.0\n", "fluid.minimum_pressure"},
 };
 
-std::vector<change> const of_bare{
+std::vector<change> const bare_changes{
     {"fluid.network.pores[].volume", "volume = 2.0", "volume = 2.5", "fluid.network.pores[1].volume"},
     {"fluid.network.pores[].pressure", "pressure = 8.0", "pressure = 9.0", "fluid.network.pores[0].pressure"},
     {"fluid.network.throats[].pores", "[1, 2]", "[0, 2]", "fluid.network.throats[1].pores[0]"},
@@ -361,28 +361,8 @@ std::vector<change> const of_bare{
     {"fluid.bulk_modulus", "1e6", "2e6", "fluid.bulk_modulus"},
 };
 
-} // namespace
-
-TEST_CASE("each key changed at a restart is refused by its path, or may change", "[restart][refusal][checkpoint]") {
-    std::set<std::string> seen;
-    check_refused("restart_body", body, of_body, seen);
-    check_refused("restart_bare", bare, of_bare, seen);
-    // Keys that apply only with time_step = "auto" and strengths of materials.
-    auto strong = with(with(body, "time_step = 1e-6\n", "safety = 0.2\n"), "tensile_force = 1e8\nshear_force = 9e7\n", "");
-    strong = with(strong, "friction = 0.2\n", "friction = 0.2\ntensile_strength = 4e8\nshear_strength = 3e8\n");
-    check_refused("restart_strong", strong,
-                  {{"simulation.safety", "safety = 0.2", "safety = 0.3", "simulation.safety"},
-                   {"materials.*.tensile_strength", "tensile_strength = 4e8\n", "", "materials.a.tensile_strength"},
-                   {"materials.*.shear_strength", "shear_strength = 3e8", "shear_strength = 2e8", "materials.a.shear_strength"}},
-                  seen);
-    std::string const rule = "rule = \"when_needed\", interval = 50, on_broken_bond = false";
-    check_refused("restart_remeshing", with(body, "sources = [{ pore = 1, flow = 1e-6 }]\n", "remeshing = { " + rule + " }\n"),
-                  {{"fluid.remeshing.rule", rule, "rule = \"never\"", "fluid.remeshing.rule"},
-                   {"fluid.remeshing.interval", "interval = 50", "interval = 60", "fluid.remeshing.interval"},
-                   {"fluid.remeshing.on_broken_bond", "broken_bond = false", "broken_bond = true", "fluid.remeshing.on_broken_bond"}},
-                  seen);
-    // Rigid particles, flow alone.
-    auto const rigid = std::string(R"(
+/// Rigid particles, flow alone.
+std::string const rigid = R"(
 [simulation]
 steps = 3
 time_step = 1e-6
@@ -400,26 +380,10 @@ bulk_modulus = 1e5
 conductivity = 1e-3
 aperture = { law = "constant", value = 1e-2 }
 mechanical_coupling = false
-)");
-    check_refused("restart_rigid", rigid,
-                  {{"fluid.aperture.value", "value = 1e-2", "value = 2e-2", "fluid.aperture.value"},
-                   {"fluid.mechanical_coupling", "coupling = false", "coupling = true", "fluid.mechanical_coupling"},
-                   {"particles.position", "[0.5, 0.875]]", "[0.5, 0.875], [1.5, 0.875]]", "particles.position"},
-                   {"particles.position", "0.875", "0.876", "particles.position[2][1]"}},
-                  seen);
-    auto hertz = with(with(body, "\"frictional_spring\"", "\"hertz_mindlin\""), "friction = 0.25",
-                      "friction = 0.25\nyoung_modulus = 1e8\npoisson_ratio = 0.2");
-    hertz = with(hertz, "friction = 0.3\n", "friction = 0.3\nyoung_modulus = 2e8\npoisson_ratio = 0.3\n");
-    hertz = with(with(hertz, "\"brittle_spring\"", "\"parallel_bond\""), "shear_force = 9e7", "bending_stiffness = 7e5");
-    check_refused("restart_hertz", hertz,
-                  {{"materials.*.young_modulus", "young_modulus = 1e8", "young_modulus = 1.5e8", "materials.b.young_modulus"},
-                   {"materials.*.poisson_ratio", "poisson_ratio = 0.2", "poisson_ratio = 0.25", "materials.b.poisson_ratio"},
-                   {"walls[].young_modulus", "young_modulus = 2e8", "young_modulus = 1e9", "walls[0].young_modulus"},
-                   {"walls[].poisson_ratio", "poisson_ratio = 0.3", "poisson_ratio = 0.35", "walls[0].poisson_ratio"},
-                   {"bonds.bending_stiffness", "7e5", "8e5", "bonds.bending_stiffness[0]"}},
-                  seen);
-    // Keys compared by their effect: a file, the gap of touching particles, the dimension.
-    auto const from_file = std::string(R"(
+)";
+
+/// Particles and bonds that a CSV file and a list of bonds can replace.
+std::string const from_file = R"(
 [simulation]
 steps = 3
 time_step = 1e-6
@@ -436,7 +400,46 @@ velocity = [[0.0, 0.0], [0.0, 0.5]]
 [bonds]
 touching = true
 gap = 1e-5
-)");
+)";
+
+} // namespace
+
+TEST_CASE("each key changed at a restart is refused by its path, or may change", "[restart][refusal][checkpoint]") {
+    std::set<std::string> seen;
+    check_refused("restart_coupled", coupled, coupled_changes, seen);
+    check_refused("restart_bare", bare, bare_changes, seen);
+    // Keys that apply only with time_step = "auto" and strengths of materials.
+    auto strong = with(with(coupled, "time_step = 1e-6\n", "safety = 0.2\n"), "tensile_force = 1e8\nshear_force = 9e7\n", "");
+    strong = with(strong, "friction = 0.2\n", "friction = 0.2\ntensile_strength = 4e8\nshear_strength = 3e8\n");
+    check_refused("restart_strong", strong,
+                  {{"simulation.safety", "safety = 0.2", "safety = 0.3", "simulation.safety"},
+                   {"materials.*.tensile_strength", "tensile_strength = 4e8\n", "", "materials.a.tensile_strength"},
+                   {"materials.*.shear_strength", "shear_strength = 3e8", "shear_strength = 2e8", "materials.a.shear_strength"}},
+                  seen);
+    std::string const rule = "rule = \"when_needed\", interval = 50, on_broken_bond = false";
+    check_refused("restart_remeshing", with(coupled, "sources = [{ pore = 1, flow = 1e-6 }]\n", "remeshing = { " + rule + " }\n"),
+                  {{"fluid.remeshing.rule", rule, "rule = \"never\"", "fluid.remeshing.rule"},
+                   {"fluid.remeshing.interval", "interval = 50", "interval = 60", "fluid.remeshing.interval"},
+                   {"fluid.remeshing.on_broken_bond", "broken_bond = false", "broken_bond = true", "fluid.remeshing.on_broken_bond"}},
+                  seen);
+    check_refused("restart_rigid", rigid,
+                  {{"fluid.aperture.value", "value = 1e-2", "value = 2e-2", "fluid.aperture.value"},
+                   {"fluid.mechanical_coupling", "coupling = false", "coupling = true", "fluid.mechanical_coupling"},
+                   {"particles.position", "[0.5, 0.875]]", "[0.5, 0.875], [1.5, 0.875]]", "particles.position"},
+                   {"particles.position", "0.875", "0.876", "particles.position[2][1]"}},
+                  seen);
+    auto hertz = with(with(coupled, "\"frictional_spring\"", "\"hertz_mindlin\""), "friction = 0.25",
+                      "friction = 0.25\nyoung_modulus = 1e8\npoisson_ratio = 0.2");
+    hertz = with(hertz, "friction = 0.3\n", "friction = 0.3\nyoung_modulus = 2e8\npoisson_ratio = 0.3\n");
+    hertz = with(with(hertz, "\"brittle_spring\"", "\"parallel_bond\""), "shear_force = 9e7", "bending_stiffness = 7e5");
+    check_refused("restart_hertz", hertz,
+                  {{"materials.*.young_modulus", "young_modulus = 1e8", "young_modulus = 1.5e8", "materials.b.young_modulus"},
+                   {"materials.*.poisson_ratio", "poisson_ratio = 0.2", "poisson_ratio = 0.25", "materials.b.poisson_ratio"},
+                   {"walls[].young_modulus", "young_modulus = 2e8", "young_modulus = 1e9", "walls[0].young_modulus"},
+                   {"walls[].poisson_ratio", "poisson_ratio = 0.3", "poisson_ratio = 0.35", "walls[0].poisson_ratio"},
+                   {"bonds.bending_stiffness", "7e5", "8e5", "bonds.bending_stiffness[0]"}},
+                  seen);
+    // Keys compared by their effect: a file, the gap of touching particles, the dimension.
     check_refused("restart_file", from_file,
                   {{"particles.file", "position = [[0.0, 0.0], [1.0, 0.0]]\nradius = 0.5\nmaterial = \"a\"\nvelocity = [[0.0, 0.0], [0.0, 0.5]]",
                     "file = \"list.csv\"", "particles.velocity[1][1]"},
@@ -461,9 +464,9 @@ gap = 1e-5
 
 TEST_CASE("the same scenario written in another way continues", "[restart][checkpoint]") {
     folder const here("restart_same");
-    here.write("case.toml", body + "[output]\ncheckpoint_every = 3\n");
+    here.write("case.toml", coupled + "[output]\ncheckpoint_every = 3\n");
     REQUIRE(here.run("--quiet case.toml").status == 0);
-    auto other = with(body, "radius = 0.5", "radius = [0.5, 0.5, 0.5, 0.5]");
+    auto other = with(coupled, "radius = 0.5", "radius = [0.5, 0.5, 0.5, 0.5]");
     other = with(other, "fix = [{ particles = [0], axes = \"xy\" }]", "fix = [{ particles = [0], axes = \"y\" }, { particles = [0], axes = \"x\" }]");
     other = with(other, "steps = 3", "steps = 9\nthreads = 2\nguards = { motion_limit = 0.2 }");
     other = with(other, "shear_force = 9e7", "shear_force = [9e7, 9e7]");

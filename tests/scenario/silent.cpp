@@ -135,7 +135,7 @@ bool is_exempt(std::string_view path) {
     return path.substr(0, 16) == "fluid.remeshing." || path.substr(0, 18) == "simulation.guards.";
 }
 
-settings const body{
+settings const dry{
     {"simulation.steps", "20"},
     {"materials.*.density", "1000.0"},
     {"materials.*.normal_stiffness", "1e6"},
@@ -274,29 +274,29 @@ void try_all_keys(std::string const& name, tree const& deck) {
 } // namespace
 
 TEST_CASE("no key is silent: frictional springs and bonds in the plane", "[keys][program]") {
-    try_all_keys("plane", deck_of({body, wall, bonds, {{"simulation.gravity", "[0.0, -9.0]"}}}));
+    try_all_keys("plane", deck_of({dry, wall, bonds, {{"simulation.gravity", "[0.0, -9.0]"}}}));
 }
-TEST_CASE("no key is silent: contacts alone", "[keys][program]") { try_all_keys("contacts", deck_of({body})); }
+TEST_CASE("no key is silent: contacts alone", "[keys][program]") { try_all_keys("contacts", deck_of({dry})); }
 TEST_CASE("no key is silent: bonds alone", "[keys][program]") {
-    tree deck = deck_of({body, bonds, {{"simulation.contact_law", "\"none\""}}});
+    tree deck = deck_of({dry, bonds, {{"simulation.contact_law", "\"none\""}}});
     deck.below["materials"].below["matrix"].below.erase("friction");
     try_all_keys("bonds", deck);
 }
 TEST_CASE("no key is silent: parallel bonds with strengths of their own", "[keys][program]") {
-    tree deck = deck_of({body, {{"simulation.bond_law", "\"parallel_bond\""},
+    tree deck = deck_of({dry, {{"simulation.bond_law", "\"parallel_bond\""},
                                 {"bonds.pairs", "[[0, 1]]"},
                                 {"bonds.tensile_force", "1e5"},
                                 {"bonds.shear_force", "1e5"}}});
     try_all_keys("parallel", deck);
 }
 TEST_CASE("no key is silent: a pressure on a row of spheres", "[keys][program]") {
-    tree deck = deck_of({body, {{"simulation.mass", "\"sphere\""}, {"simulation.time_step", "1e-4"}}});
+    tree deck = deck_of({dry, {{"simulation.mass", "\"sphere\""}, {"simulation.time_step", "1e-4"}}});
     deck.below.erase("loads");
     deck.set("loads[].pressure", "10.0");
     try_all_keys("pressure", deck);
 }
 TEST_CASE("no key is silent: Hertzian spheres in space", "[keys][program]") {
-    tree deck = deck_of({body, {{"simulation.dimension", "3"},
+    tree deck = deck_of({dry, {{"simulation.dimension", "3"},
                                 {"simulation.mass", "\"sphere\""},
                                 {"simulation.contact_law", "\"hertz_mindlin\""},
                                 {"materials.*.young_modulus", "1e7"},
@@ -310,7 +310,7 @@ TEST_CASE("no key is silent: Hertzian spheres in space", "[keys][program]") {
 }
 TEST_CASE("no key is silent: with fluid, explicit and implicit", "[keys][program]") {
     for (char const* solver : {"\"explicit\"", "\"implicit\""})
-        try_all_keys(solver[1] == 'e' ? "wet" : "wet_implicit", deck_of({body, bonds, water, {{"fluid.solver", solver}}}));
+        try_all_keys(solver[1] == 'e' ? "wet" : "wet_implicit", deck_of({dry, bonds, water, {{"fluid.solver", solver}}}));
 }
 TEST_CASE("no key is silent: flow alone between particles", "[keys][program]") { try_all_keys("rigid", deck_of({rigid})); }
 TEST_CASE("no key is silent: a bare network", "[keys][program]") {
