@@ -281,12 +281,12 @@ void check_refused(std::string const& name, std::string const& deck, std::vector
     REQUIRE(ran.status == 0);
     for (change const& c : changes) {
         here.write("other.toml", with(deck, c.old, c.replacement));
-        auto const ran = here.run("--check --restart out/checkpoint.bin other.toml");
-        INFO(c.key << ": " << ran.err);
-        CHECK(ran.status == 2);
-        CHECK(std::count(ran.err.begin(), ran.err.end(), '\n') == 1);
-        CHECK_THAT(ran.err, contains_text("checkpoint out/checkpoint.bin: it was made with " + c.path + " = "));
-        CHECK_THAT(ran.err, contains_text(", the deck says "));
+        auto const checked = here.run("--check --restart out/checkpoint.bin other.toml");
+        INFO(c.key << ": " << checked.err);
+        CHECK(checked.status == 2);
+        CHECK(std::count(checked.err.begin(), checked.err.end(), '\n') == 1);
+        CHECK_THAT(checked.err, contains_text("checkpoint out/checkpoint.bin: it was made with " + c.path + " = "));
+        CHECK_THAT(checked.err, contains_text(", the deck says "));
         seen.insert(c.key);
     }
     here.write("other.toml", deck);
