@@ -122,7 +122,7 @@ TEST_CASE("after a signal files are complete, and the message says how to contin
         run.send(signal); // as `timeout` does: to the program, and to its group
         REQUIRE(run.wait() == 128 + signal);
         std::string const name = signal == SIGTERM ? "SIGTERM" : signal == SIGINT ? "SIGINT" : "SIGHUP";
-        REQUIRE_THAT(process::read_all(LACUNA_RUN_SCRATCH "/signals.said"), contains_text("stopped by " + name) && contains_text("--restart"));
+        REQUIRE_THAT(process::read_all((here / "../signals.said").string()), contains_text("stopped by " + name) && contains_text("--restart"));
         auto const summary = nlohmann::json::parse(program::read_file(here / "out/summary.json"));
         REQUIRE(summary.at("ended") == "stopped by " + name);
         long long const steps = summary.at("steps");

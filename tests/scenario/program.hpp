@@ -9,11 +9,13 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
 #include <sys/wait.h>
+#include <unistd.h>
 
 /// \file
 /// Runs the program lacuna-run in an empty folder and reads its output files.
@@ -33,12 +35,18 @@ struct result {
     std::string out, err;
 };
 
-/// A separate folder for each test, empty at first.
+/// A folder for one test, empty at first, removed at its end. Tests run side by side: it lies in a folder of the process.
 class folder {
 public:
-    explicit folder(std::string const& name) : path_(fs::path(LACUNA_RUN_SCRATCH) / name) {
-        fs::remove_all(path_);
-        fs::create_directories(path_);
+    explicit folder(std::string const& name)
+        : own_(fs::path(LACUNA_RUN_SCRATCH) / (name + "." + std::to_string(getpid()))), path_(own_ / name) {
+        clear();
+    }
+    folder(folder const&) = delete;
+    folder& operator=(folder const&) = delete;
+    ~folder() {
+        std::error_code ignored;
+        fs::remove_all(own_, ignored);
     }
     void clear() const {
         fs::remove_all(path_);
@@ -67,7 +75,7 @@ public:
     result run_case(std::string const& name) const { return run("--quiet '" LACUNA_RUN_CASES "/" + name + ".toml'"); }
 
 private:
-    fs::path path_;
+    fs::path own_, path_;
 };
 
 /// A CSV file: heading and rows.
