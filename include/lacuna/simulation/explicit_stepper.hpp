@@ -53,6 +53,9 @@ private:
         s_.loads.advance(s_.store, clock_.time());
         s_.motions.advance(clock_.time(), clock_.time_step(),
                            [&](std::size_t k, vec<double, dim> const& v) { s_.apply_velocity_change(k, v); });
+    }
+
+    void prepare_forces() {
         for (auto& r : s_.reports) r = {};
         other_forces_act_ = force_terms::any_active(s_);
         velocities_on_time_ = s_.settings.velocities_on_time && (clock_.step() == 0 || !s_.changes.empty());
@@ -247,6 +250,7 @@ void explicit_stepper<Model>::step() {
     previous_ = real(clock_.previous_step());
     dt_ = real(clock_.begin_step(s_)); // follows or keeps the time step
     apply_prescribed_motion();
+    prepare_forces();
     force_step<real> forces{clock_.now(), previous_, pairs_changed};
     if (nothing_else_reads_forces()) {
         compute_pair_forces_and_move<WithEnergy>(); // fused: forces are used while in cache
