@@ -105,7 +105,7 @@ private:
                 momenta += std::sqrt(2 * sim.mass(k) * f.energy);
                 for (int axis = 0; axis < dim; ++axis) reach = std::max(reach, std::fabs(sim.position(k)[axis]) + sim.radius(k));
             }
-            double const critical = sim.limits().critical(), step = sim.resolve_time_step();
+            double const critical = sim.limits().critical(), step = sim.time_step();
             f.share = std::max(f.share, step / critical);
             double const stiffness = std::max(4 * heaviest / (critical * critical), stated_stiffness());
             double const pairs = double(sim.size()) * (dim == 2 ? 4 : 8) + double(scenario.bonds.pairs.size());
