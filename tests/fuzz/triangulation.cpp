@@ -149,7 +149,7 @@ public:
 
     /// True if the mesh of these particles is one that the tests promise: in space, further apart than 1e15 times the largest
     /// radius, a particle may enter an orthogonal sphere.
-    bool is_promised() const { return Dim == 2 || extent_ <= 1e15L * largest_; }
+    bool is_promised() const { return Dim == 2 || largest_ == 0 || extent_ <= 1e15L * largest_; }
     /// True if p is outside the orthogonal sphere of s within the allowed change of weights.
     bool is_outside(simplex const& s, std::int32_t p) const {
         number inside = 0, error = 0, share = 0, whole = 0, nearest = std::numeric_limits<number>::infinity();
