@@ -10,7 +10,7 @@
 #   --three    blocks of spheres instead of sheets: workloads full3 and frictional3
 #   --json     prints a list of objects instead of a table: work, particles, real, ours, lammps, ratio, ns_per_pair,
 #              rss_mb
-# LAMMPS always runs its frictional sheet or block, whatever our workload. Without LAMMPS, lammps and ratio are null.
+# LAMMPS always runs its frictional sheet or block, for each of our workloads. Without LAMMPS, lammps and ratio are null.
 # Exit status 1 if a workload fails its physics checks; it does not depend on times.
 set -eu
 

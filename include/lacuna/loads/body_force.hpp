@@ -41,12 +41,12 @@ struct no_forces {
     };
 };
 
-/// A force of the model's own on each particle, for the slot `forces`: gravity of a centre, drag of a surrounding gas, a field.
+/// The model's own force on each particle, for the slot `forces`: attraction of a centre, drag of a gas, a field.
 ///
-/// Force is a struct or a lambda, called as `force(acted_particle<Dim> const&) -> vec<double, Dim>`, N. It may run on several
-/// threads at once and sees one particle, so that results do not depend on the number of threads. A member
-/// `validate(std::string const& name) const` checks its parameters. Its work goes into the ledger's external work. Its
-/// derivatives by position and velocity, found by central differences, enter the bound of the time step.
+/// Force is a struct or a lambda, called as `force(acted_particle<Dim> const&) -> vec<double, Dim>`, N. It sees one
+/// particle and may run on several threads at once; results do not depend on their number. A member
+/// `validate(std::string const& name) const` checks its parameters. Its work is part of the ledger's external work. Its
+/// derivatives by position and velocity, from central differences, enter the bound of the time step.
 /// \code
 /// inline constexpr auto pull = [](lacuna::acted_particle<2> const& p) { return p.position * (-9.0 * p.mass); };
 /// struct model : lacuna::default_model<2> {
@@ -72,7 +72,7 @@ struct body_force {
         explicit term(parameters const& p) : force_(p.force) {}
         static constexpr bool active() noexcept { return true; }
 
-        /// Adds the force on each particle to `out`, one record {force, torque over radius} a particle in the plane, two in space.
+        /// Adds the force on each particle to `out`: one record {force, torque over radius} per particle in 2D, two in 3D.
         /// \param time of the positions, s
         void add_forces(store_type const& store, double time, int threads, record_column<Real>& out) {
             forces_.resize(store.size());
