@@ -203,8 +203,8 @@ double momentum_drift(work w) {
 }
 
 /// Number of pairs in a table without padding.
-template <class Table>
-std::size_t count_pairs(Table const& table, std::size_t particles) {
+template <class Law, class Real, int Dim>
+std::size_t count_pairs(lacuna::pair_table<Law, Real, Dim> const& table, std::size_t particles) {
     std::size_t count = 0;
     for (std::size_t k = 0; k < table.slots(); ++k) count += table.is_padding(k, particles) ? 0 : 1;
     return count;

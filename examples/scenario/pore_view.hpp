@@ -5,6 +5,7 @@
 #include <string>
 
 #include <lacuna/core/points.hpp>
+#include <lacuna/particles/store.hpp>
 #include <lacuna/pores/mesh/no_pores.hpp>
 #include <lacuna/pores/mesh/triangulation.hpp>
 #include <lacuna/pores/network/flow_boundaries.hpp>
@@ -120,8 +121,8 @@ void add_pores(run_numbers& n, lacuna::pore_network<Real, 2> const& net, lacuna:
 }
 
 /// Adds the pores for pictures and VTK: triangles of particle ids.
-template <class Real, class Store>
-void add_pores(frame_data& f, lacuna::pore_network<Real, 2> const& net, Store const& store) {
+template <class Real>
+void add_pores(frame_data& f, lacuna::pore_network<Real, 2> const& net, lacuna::particle_store<Real, 2> const& store) {
     for (std::size_t p = 0; p < net.pores(); ++p) {
         frame_data::pore one{};
         for (std::size_t c = 0; c < 3; ++c) one.corners[c] = store.id(std::size_t(net.corner[c][p]));

@@ -10,6 +10,7 @@
 
 #include <lacuna/core/error.hpp>
 #include <lacuna/interactions/break_event.hpp>
+#include <lacuna/interactions/storage/pair_table.hpp>
 #include <lacuna/particles/store.hpp>
 
 namespace lacuna {
@@ -28,8 +29,8 @@ bool pair_before(Entry const& a, Entry const& b) noexcept {
 }
 
 /// Writes the slot of each intact bond into its record, and -1 into the records of the others.
-template <class Table>
-void number_bonds(std::span<bond_record> records, Table const& table, std::size_t particles) {
+template <class Law, class Real, int Dim>
+void number_bonds(std::span<bond_record> records, pair_table<Law, Real, Dim> const& table, std::size_t particles) {
     for (auto& record : records) record.slot = -1;
     for (std::size_t s = 0; s < table.slots(); ++s) {
         if (table.is_padding(s, particles)) continue;

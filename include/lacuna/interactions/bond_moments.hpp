@@ -15,9 +15,9 @@ namespace lacuna {
 /// \param moments moment on the first particle of each pair, N m; rotation_dim numbers per slot
 /// \param out in 2D one record {F_x, F_y, torque over radius, 0} per particle; in 3D two records (force, torque over
 ///        radius); N
-template <class Table, class Real, int Dim>
-void add_moments(particle_store<Real, Dim> const& store, Table const& pairs, std::vector<Real> const& moments,
-                 record_column<Real>& out) noexcept {
+template <class Law, class Real, int Dim>
+void add_moments(particle_store<Real, Dim> const& store, pair_table<Law, Real, Dim> const& pairs,
+                 std::vector<Real> const& moments, record_column<Real>& out) noexcept {
     for (std::size_t s = 0; s < pairs.slots(); ++s) {
         if (pairs.is_padding(s, store.size())) continue;
         auto const i = std::size_t(pairs.i(s)), j = std::size_t(pairs.j(s));

@@ -352,8 +352,8 @@ private:
         overlap_share_.assign(chunks, Real(0));
     }
 
-    template <pair_kind Kind, class Table>
-    chunk_output<Real> output(Table const& table, int chunk, std::vector<Real>& moments) noexcept {
+    template <pair_kind Kind, class Law>
+    chunk_output<Real> output(pair_table<Law, Real, Dim> const& table, int chunk, std::vector<Real>& moments) noexcept {
         return {forces_.template begin<Kind>(table, chunk), forces_.template offsets<Kind>(table, chunk),
                 forces_.template normals_of<Kind>(), moments.data()};
     }

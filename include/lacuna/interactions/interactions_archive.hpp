@@ -19,8 +19,8 @@ namespace lacuna {
 struct interactions_archive {
     /// Writes the state that a run changes to an archive, or reads it from one.
     /// \throws std::runtime_error for a state that contradicts itself; `pairs` must not be used afterwards
-    template <class Archive, class Interactions, class Store>
-    static void apply(Archive& ar, Interactions& pairs, Store const& store) {
+    template <class Archive, class Interactions>
+    static void apply(Archive& ar, Interactions& pairs, typename Interactions::store_type const& store) {
         std::vector<std::int32_t> bonds;
         std::vector<std::int8_t> states;
         for (std::size_t s = 0; s < pairs.bonds_.slots(); ++s)
@@ -34,8 +34,8 @@ struct interactions_archive {
 
 private:
     /// Histories of the packs in use. The number of spare packs is no part of the state.
-    template <class Archive, class Table>
-    static void apply_states(Archive& ar, Table& table) {
+    template <class Archive, class Law, class Real, int Dim>
+    static void apply_states(Archive& ar, pair_table<Law, Real, Dim>& table) {
         auto const for_each = [&](auto const& visit) {
             std::size_t count = 0;
             for (int c = 0; c < table.chunks(); ++c)
@@ -49,9 +49,9 @@ private:
             for_each([&](std::size_t k, std::size_t p) { table.states().store(p, states.load(k)); });
     }
     /// Builds the tables of the state that is being read. Their histories follow later.
-    template <class Interactions, class Store>
-    static void rebuild(Interactions& pairs, Store const& store, std::vector<std::int32_t> const& bonds,
-                        std::vector<std::int8_t> const& states) {
+    template <class Interactions>
+    static void rebuild(Interactions& pairs, typename Interactions::store_type const& store,
+                        std::vector<std::int32_t> const& bonds, std::vector<std::int8_t> const& states) {
         auto& records = pairs.bond_records_;
         for (std::size_t b = 0; b < states.size(); ++b) {
             require_state(states[b] >= 0 && states[b] <= std::int8_t(bond_state::broken_in_shear), "a bond's state");

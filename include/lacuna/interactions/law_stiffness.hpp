@@ -7,6 +7,7 @@
 #include <lacuna/core/dual.hpp>
 #include <lacuna/core/error.hpp>
 #include <lacuna/core/fields.hpp>
+#include <lacuna/interactions/storage/pair_table.hpp>
 #include <lacuna/laws/pair_motion.hpp>
 #include <lacuna/particles/store.hpp>
 
@@ -105,9 +106,9 @@ struct contact_seen {
 
 /// Calls use(slot, i, j, arm, distance, overlap) for the contacts of a table that touch, or whose gap is at most that
 /// of the assumption. The arm points from i to j; lengths are in m.
-template <class Law, class Real, int Dim, class Table, class Use>
-void visit_contacts(particle_store<Real, Dim> const& store, Table const& table, contact_assumption const& assumed,
-                    Use const& use) {
+template <class Law, class Real, int Dim, class Use>
+void visit_contacts(particle_store<Real, Dim> const& store, pair_table<Law, Real, Dim> const& table,
+                    contact_assumption const& assumed, Use const& use) {
     for (int c = 0; c < table.chunks(); ++c)
         for (std::size_t s = table.first_slot(c), end = s + table.chunk_size(c); s < end; ++s) {
             auto const i = std::size_t(table.i(s)), j = std::size_t(table.j(s));
@@ -125,10 +126,10 @@ void visit_contacts(particle_store<Real, Dim> const& store, Table const& table, 
 }
 
 /// Calls visit(contact_seen, pair_stiffness) for the contacts of a table that touch or may touch under the assumption.
-template <class Law, class Real, int Dim, class Table, class Parameters, class Visit>
-void visit_depths(particle_store<Real, Dim> const& store, Table const& table, Parameters const& parameters,
-                  contact_assumption const& assumed, Visit const& visit) {
-    visit_contacts<Law>(store, table, assumed, [&](std::size_t s, std::size_t i, std::size_t j, auto const& arm,
+template <class Law, class Real, int Dim, class Parameters, class Visit>
+void visit_depths(particle_store<Real, Dim> const& store, pair_table<Law, Real, Dim> const& table,
+                  Parameters const& parameters, contact_assumption const& assumed, Visit const& visit) {
+    visit_contacts(store, table, assumed, [&](std::size_t s, std::size_t i, std::size_t j, auto const& arm,
                                                    double distance, double overlap) {
         double const ri = double(store.radius(i)), rj = double(store.radius(j));
         double const mi = double(store.mass(i)), mj = double(store.mass(j));
@@ -160,9 +161,9 @@ pair_tangent<Dim> tangent_of(particle_store<Real, Dim> const& store, std::size_t
 }
 
 /// Calls visit(pair_tangent) for every bond of a table.
-template <class Law, class Real, int Dim, class Table, class Parameters, class Visit>
-void visit_bond_tangents(particle_store<Real, Dim> const& store, Table const& table, Parameters const& parameters,
-                         Visit const& visit) {
+template <class Law, class Real, int Dim, class Parameters, class Visit>
+void visit_bond_tangents(particle_store<Real, Dim> const& store, pair_table<Law, Real, Dim> const& table,
+                         Parameters const& parameters, Visit const& visit) {
     for (std::size_t s = 0; s < table.slots(); ++s) {
         if (table.is_padding(s, store.size())) continue;
         auto const i = std::size_t(table.i(s)), j = std::size_t(table.j(s));
@@ -178,10 +179,10 @@ void visit_bond_tangents(particle_store<Real, Dim> const& store, Table const& ta
 }
 
 /// Calls visit(pair_tangent) for the contacts of a table that touch or may touch under the assumption.
-template <class Law, class Real, int Dim, class Table, class Parameters, class Visit>
-void visit_contact_tangents(particle_store<Real, Dim> const& store, Table const& table, Parameters const& parameters,
-                            contact_assumption const& assumed, Visit const& visit) {
-    visit_contacts<Law>(store, table, assumed, [&](std::size_t s, std::size_t i, std::size_t j, auto const& arm,
+template <class Law, class Real, int Dim, class Parameters, class Visit>
+void visit_contact_tangents(particle_store<Real, Dim> const& store, pair_table<Law, Real, Dim> const& table,
+                            Parameters const& parameters, contact_assumption const& assumed, Visit const& visit) {
+    visit_contacts(store, table, assumed, [&](std::size_t s, std::size_t i, std::size_t j, auto const& arm,
                                                    double distance, double overlap) {
         auto const& row = parameters.row[std::size_t(table.parameter()[s])];
         auto const k = contact_stiffness<Law, Dim>(row, overlap, double(store.radius(i)), double(store.radius(j)), assumed);

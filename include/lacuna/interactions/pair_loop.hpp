@@ -168,9 +168,10 @@ struct pair_view {
 };
 
 /// Normal force of one pack of pairs, the force of their dashpots included.
-template <pair_kind Kind, class Law, class Damping, class Lanes, class Parameters, class Frame, class State, class Table, class Store>
+template <pair_kind Kind, class Law, class Damping, class Lanes, class Real, int Dim, class Parameters, class State>
 Lanes with_dashpots(Lanes const& normal, typename Damping::parameters const& damping, Parameters const& law,
-                    Frame const& frame, State const& state, Table const& table, Store const& store, std::size_t slot) noexcept {
+                    pair_frame<Lanes, Dim> const& frame, State const& state, pair_table<Law, Real, Dim> const& table,
+                    particle_store<Real, Dim> const& store, std::size_t slot) noexcept {
     Lanes mass_i, mass_j, none(value_t<Lanes>(0));
     for (int k = 0; k < Lanes::width; ++k) {
         mass_i.v[k] = store.masses()[table.i(slot + std::size_t(k))];
@@ -188,10 +189,10 @@ Lanes with_dashpots(Lanes const& normal, typename Damping::parameters const& dam
 
 /// Prefetches the pairs that come `ahead` packs later and, in 3D, the second particles of pairs half as far ahead.
 /// \param pack_after callable: skips the spare packs of the chunk and returns the pack to read in place of pack p
-template <class Table, class Real, int Dim, class After>
-void prefetch_pairs(Table const& table, particle_store<Real, Dim> const& store, std::size_t p, std::size_t ahead,
-                    After const& pack_after) noexcept {
-    constexpr int W = Table::width;
+template <class Law, class Real, int Dim, class After>
+void prefetch_pairs(pair_table<Law, Real, Dim> const& table, particle_store<Real, Dim> const& store, std::size_t p,
+                    std::size_t ahead, After const& pack_after) noexcept {
+    constexpr int W = native_width<Real>;
     table.prefetch(pack_after(p + ahead));
     if constexpr (Dim == 3)
         if (std::size_t const q = pack_after(p + ahead / 2); q < table.packs()) {

@@ -48,7 +48,7 @@ struct wall_servo {
     }
 };
 
-/// Moves walls at prescribed velocities or by servos.
+/// Moves walls at prescribed velocities or by servos. `Walls` is wall_contacts, of a room that this one does not include.
 template <int Dim>
 class wall_drive {
 public:

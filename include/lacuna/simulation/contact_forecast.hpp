@@ -10,6 +10,7 @@
 #include <lacuna/interactions/law_stiffness.hpp>
 #include <lacuna/laws/no_contact.hpp>
 #include <lacuna/motion/stable_step.hpp>
+#include <lacuna/simulation/simulation_state.hpp>
 
 namespace lacuna {
 
@@ -32,14 +33,16 @@ public:
     static constexpr int dim = Model::dim;
     using law = typename Model::contact_law;
     using damping_parameters = typename Model::damping::parameters;
+    using store_type = typename simulation_state<Model>::store_type;
+    using interactions_type = typename simulation_state<Model>::interactions_type;
+    using walls_type = typename simulation_state<Model>::walls_type;
     static constexpr bool grows = stiffens<law, dim>;
 
     /// Computes the bounds, unless they are known for these speeds and overlaps.
     /// \param speed speed of the fastest particle or wall, m/s
     /// \param overlap least overlap of contacts, as a share of the smaller radius, 1
     /// \param margin ratio of the overlap that is counted to the overlap that stops two particles at that speed, 1
-    template <class Store, class Interactions, class Walls>
-    void update(Store const& store, Interactions const& pairs, Walls const& walls,
+    void update(store_type const& store, interactions_type const& pairs, walls_type const& walls,
                 damping_parameters const& damping, double speed, double overlap, double margin) {
         bool const known = known_ && (!grows || (overlap <= overlap_ && speed <= speed_ && 4 * speed >= speed_));
         if (known) return;
@@ -78,15 +81,13 @@ private:
         bool moves = false, smallest = false;
     };
 
-    template <class Store>
-    static bool moves(Store const& store, std::size_t k) noexcept {
+    static bool moves(store_type const& store, std::size_t k) noexcept {
         for (int axis = 0; axis < frequency_bound<dim>::freedoms; ++axis)
             if (store.mobility(k, axis) > 0) return true;
         return false;
     }
     /// Finds the smallest and the largest particle of each material, among those that move and those that are fixed.
-    template <class Store>
-    void find_kinds(Store const& store) {
+    void find_kinds(store_type const& store) {
         kinds_.clear();
         smallest_ = std::numeric_limits<double>::infinity();
         for (std::size_t k = 0; k < store.size(); ++k) {
@@ -119,9 +120,8 @@ private:
         }
     };
 
-    template <class Store, class Interactions, class Walls>
-    void search(Store const& store, Interactions const& pairs, Walls const& walls, damping_parameters const& damping,
-                double margin) {
+    void search(store_type const& store, interactions_type const& pairs, walls_type const& walls,
+                damping_parameters const& damping, double margin) {
         auto const& rows = pairs.contact_parameters().row;
         auto const materials = std::size_t(std::lround(std::sqrt(double(rows.size()))));
         terms alone, crowd;
@@ -147,8 +147,8 @@ private:
         crowd_viscous_ = slowed * (crowd.viscous + drag);
     }
     /// Bounds for the contact of a moving particle with another particle, or with a wall (b = nullptr).
-    template <class Store, class Row>
-    terms meet(Store const& store, damping_parameters const& damping, double margin, kind const& a, kind const* b,
+    template <class Row>
+    terms meet(store_type const& store, damping_parameters const& damping, double margin, kind const& a, kind const* b,
                Row const& row) {
         using real = typename Model::real;
         double const ri = double(store.radius(a.particle)), rj = b ? double(store.radius(b->particle)) : 0;

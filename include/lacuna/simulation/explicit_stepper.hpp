@@ -209,7 +209,7 @@ private:
     /// \return upper bound of the path of every particle, m
     real check_motion() {
         real const path = s_.guards.check_motion(s_.store, s_.pairs, s_.reports, dt_, fastest_given_, clock_.now());
-        count_paths<dim>(std::span<motion_report<real> const>(s_.reports), dt_, s_.pairs, s_.walls);
+        count_paths(s_, dt_);
         return path;
     }
 

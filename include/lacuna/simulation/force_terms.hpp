@@ -28,8 +28,8 @@ namespace lacuna {
 namespace detail {
 
 /// Adds the stiffness of the fluid: a change dV of a pore's volume takes the energy K_f dV^2 / (2 V_p).
-template <int Dim, class Store, class Flow>
-void add_fluid_stiffness(frequency_bound<Dim>& bound, Store const& store, Flow const& flow) {
+template <int Dim, class Real, class Flow>
+void add_fluid_stiffness(frequency_bound<Dim>& bound, particle_store<Real, Dim> const& store, Flow const& flow) {
     auto const& net = flow.network();
     for (std::size_t p = 0; p < net.pores(); ++p) {
         auto const tractions = flow.pore_tractions(p, store.positions(), store.radii().data());

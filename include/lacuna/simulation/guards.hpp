@@ -127,9 +127,9 @@ void check_energy(particle_store<Real, Dim> const& store, energy_ledger const& l
 /// start.
 /// \param deep_at_start labels of the bonds that overlapped so far at the start, sorted
 /// \return slot of the bond, or -1
-template <class Real, int Dim, class Table>
-std::int64_t find_deep_bond(particle_store<Real, Dim> const& store, Table const& bonds, double limit,
-                            std::span<std::int32_t const> deep_at_start) noexcept {
+template <class Law, class Real, int Dim>
+std::int64_t find_deep_bond(particle_store<Real, Dim> const& store, pair_table<Law, Real, Dim> const& bonds,
+                            double limit, std::span<std::int32_t const> deep_at_start) noexcept {
     for (std::size_t s = 0; s < bonds.slots(); ++s) {
         if (bonds.is_padding(s, store.size())) continue;
         auto const i = std::size_t(bonds.i(s)), j = std::size_t(bonds.j(s));

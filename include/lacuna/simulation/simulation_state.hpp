@@ -38,6 +38,7 @@ struct simulation_state {
     using store_type = particle_store<real, dim>;
     using interactions_type = interactions<real, dim, contact_law_type, bond_law_type, damping_type,
                                            typename Model::template search<real, dim>, typename Model::domain>;
+    using walls_type = wall_contacts<contact_law_type, damping_type, real, dim>;
     using event_type = break_event<dim>;
 
     /// \throws std::invalid_argument for a bad packing or parameter; see simulation
@@ -49,7 +50,7 @@ struct simulation_state {
         pairs = interactions_type(store, packing.bonds, p.materials, p.thickness, p.interactions, p.damping, p.bonds);
         std::vector<typename contact_law_type::material> contact_materials;
         for (auto const& m : p.materials) contact_materials.push_back(m.contact);
-        walls = wall_contacts<contact_law_type, damping_type, real, dim>(p.walls, contact_materials, p.thickness);
+        walls = walls_type(p.walls, contact_materials, p.thickness);
         wall_motions = wall_drive<dim>(p.walls.size(), p.thickness);
         own_forces = decltype(own_forces)(p.forces);
         guards = run_guards<Model>(store, pairs, p.guards, p.damping, p.allow_unstable_step);
@@ -102,7 +103,7 @@ struct simulation_state {
     simulation_parameters<Model> settings;
     store_type store;
     interactions_type pairs;
-    wall_contacts<contact_law_type, damping_type, real, dim> walls;
+    walls_type walls;
     load_set<real, dim> loads;
     fluid_coupling<Model> fluid;
     typename Model::forces::template term<real, dim> own_forces;

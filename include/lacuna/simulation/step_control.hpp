@@ -21,6 +21,9 @@ template <class Model>
 class step_control {
 public:
     static constexpr int dim = Model::dim;
+    using store_type = typename simulation_state<Model>::store_type;
+    using interactions_type = typename simulation_state<Model>::interactions_type;
+    using walls_type = typename simulation_state<Model>::walls_type;
     static constexpr bool grows = contact_forecast<Model>::grows;
     /// A chosen step counts overlaps that are larger by this factor than those which stop the particles. At 0.2 of the
     /// bound a Hertzian collision then takes about 20 steps and restores the speeds within 1e-3.
@@ -44,9 +47,8 @@ public:
     /// \param reach distance by which two particles may approach in the next step, m
     /// \param smallest_radius m
     /// \param wet whether there is fluid, which makes a look expensive
-    template <class Store, class Interactions, class Walls>
-    contact_assumption next_assumption(Store const& store, Interactions const& pairs, Walls const& walls, bool chosen,
-                                       bool wide, double reach, double smallest_radius, bool wet) const {
+    contact_assumption next_assumption(store_type const& store, interactions_type const& pairs, walls_type const& walls,
+                                       bool chosen, bool wide, double reach, double smallest_radius, bool wet) const {
         contact_assumption next{std::clamp(reach, least_gap * smallest_radius, most_gap * smallest_radius), 0};
         if (wide)
             next.gap = std::clamp(last_approach_ * double(lasting(wet)), next.gap, most_gap * smallest_radius);
@@ -77,8 +79,7 @@ public:
     /// \param speed speed of the fastest particle or wall, m/s
     /// \param overlap least overlap of contacts, as a share of the smaller radius, 1
     /// \param chosen whether the library chooses the step
-    template <class Store, class Interactions, class Walls>
-    void look_ahead(Store const& store, Interactions const& pairs, Walls const& walls,
+    void look_ahead(store_type const& store, interactions_type const& pairs, walls_type const& walls,
                     typename Model::damping::parameters const& damping, double speed, double overlap, bool chosen) {
         forecast_.update(store, pairs, walls, damping, speed, overlap, chosen ? chosen_margin : 1);
     }

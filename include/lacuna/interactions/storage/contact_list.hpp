@@ -11,6 +11,7 @@
 
 #include <lacuna/core/parallel.hpp>
 #include <lacuna/core/vec.hpp>
+#include <lacuna/interactions/storage/pair_table.hpp>
 #include <lacuna/laws/pair_motion.hpp>
 #include <lacuna/neighbors/search.hpp>
 #include <lacuna/particles/store.hpp>
@@ -19,13 +20,14 @@
 namespace lacuna {
 
 /// The candidates of one chunk that are not bonded: the `wanted` pairs of pair_table::merge().
-template <class Bonds>
+template <class BondLaw, class Real, int Dim>
 class unbonded_candidates {
 public:
+    using bond_table = pair_table<BondLaw, Real, Dim>;
     /// \param candidates sorted by (i, j)
-    unbonded_candidates(std::vector<neighbor_pair> const& candidates, Bonds const& bonds, int chunk) noexcept
-        : bonds_(bonds), begin_(Bonds::first_of_chunk(candidates, chunk)),
-          end_(Bonds::first_of_chunk(candidates, chunk + 1)), bonds_begin_(bonds.first_slot(chunk)),
+    unbonded_candidates(std::vector<neighbor_pair> const& candidates, bond_table const& bonds, int chunk) noexcept
+        : bonds_(bonds), begin_(bond_table::first_of_chunk(candidates, chunk)),
+          end_(bond_table::first_of_chunk(candidates, chunk + 1)), bonds_begin_(bonds.first_slot(chunk)),
           bonds_end_(bonds.first_slot(chunk + 1)) {}
 
     template <class Visit>
@@ -49,7 +51,7 @@ public:
     }
 
 private:
-    Bonds const& bonds_;
+    bond_table const& bonds_;
     std::vector<neighbor_pair>::const_iterator begin_, end_;
     std::size_t bonds_begin_, bonds_end_;
 };
@@ -62,9 +64,10 @@ private:
 /// \param contacts table to change
 /// \param threads number of threads to use
 /// \param make callable neighbor_pair -> entry, for pairs that are neither in the table nor in `added`
-template <class Bonds, class Contacts, class Real, int Dim, class Make>
-void merge_contacts(std::vector<neighbor_pair> const& candidates, Bonds const& bonds,
-                    std::vector<typename Contacts::entry> const& added, Contacts& contacts,
+template <class BondLaw, class ContactLaw, class Real, int Dim, class Make>
+void merge_contacts(std::vector<neighbor_pair> const& candidates, pair_table<BondLaw, Real, Dim> const& bonds,
+                    std::vector<typename pair_table<ContactLaw, Real, Dim>::entry> const& added,
+                    pair_table<ContactLaw, Real, Dim>& contacts,
                     particle_store<Real, Dim> const& store, int threads, Make const& make) {
     auto const find_or_make = [&](neighbor_pair const& pair) {
         auto const found = std::partition_point(added.begin(), added.end(), [&](auto const& e) {
@@ -74,7 +77,7 @@ void merge_contacts(std::vector<neighbor_pair> const& candidates, Bonds const& b
     };
     auto const merge = [&] {
         std::atomic<bool> fits = true;
-        for_each_chunk(Contacts::chunks_of(store.size()), threads, [&](int c) {
+        for_each_chunk(contacts.chunks_of(store.size()), threads, [&](int c) {
             if (!contacts.merge(c, unbonded_candidates(candidates, bonds, c), store, find_or_make)) fits = false;
         });
         return bool(fits);
@@ -164,21 +167,23 @@ bool acts_apart(particle_store<Real, Dim> const& store, Parameters const& parame
 
 /// Looks in one pack of contacts for an overlap above `limit` times the smaller radius.
 /// \return internal indices of the two particles, or {-1, -1}
-template <class Real, int Dim, class Table>
+template <class Law, class Real, int Dim>
 [[gnu::noinline]] std::array<std::int32_t, 2> find_deep_overlap(particle_store<Real, Dim> const& store,
-                                                                Table const& contacts, std::size_t pack, Real limit) {
+                                                                pair_table<Law, Real, Dim> const& contacts,
+                                                                std::size_t pack, Real limit) {
     std::array<std::int32_t, 2> found{-1, -1};
-    for (std::size_t s = pack * Table::width; s < (pack + 1) * Table::width; ++s)
+    for (std::size_t s = pack * contacts.width; s < (pack + 1) * contacts.width; ++s)
         if (!contacts.is_padding(s, store.size()) && overlap_of(store, contacts.i(s), contacts.j(s)) > limit)
             found = {contacts.i(s), contacts.j(s)};
     return found;
 }
 
 /// Largest overlap in one pack of contacts as a share of the smaller radius, 1. Only for laws that stiffen.
-template <class Real, int Dim, class Table>
-[[gnu::noinline]] Real deepest_of_pack(particle_store<Real, Dim> const& store, Table const& contacts, std::size_t pack) {
+template <class Law, class Real, int Dim>
+[[gnu::noinline]] Real deepest_of_pack(particle_store<Real, Dim> const& store, pair_table<Law, Real, Dim> const& contacts,
+                                       std::size_t pack) {
     Real deepest = 0;
-    for (std::size_t s = pack * Table::width; s < (pack + 1) * Table::width; ++s) {
+    for (std::size_t s = pack * contacts.width; s < (pack + 1) * contacts.width; ++s) {
         if (contacts.is_padding(s, store.size())) continue;
         auto const i = std::size_t(contacts.i(s)), j = std::size_t(contacts.j(s));
         pair_motion<Real, Dim> const still{Real(0), store.radius(i), store.radius(j), {}, Real(0)};

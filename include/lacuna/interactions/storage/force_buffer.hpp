@@ -34,15 +34,16 @@ public:
         return changed;
     }
     /// From now on stores the normal force of every pair in a separate column, in any mode.
-    template <class Bonds, class Contacts>
-    void keep_normals(Bonds const& bonds, Contacts const& contacts) {
+    template <class BondLaw, class ContactLaw>
+    void keep_normals(pair_table<BondLaw, Real, Dim> const& bonds, pair_table<ContactLaw, Real, Dim> const& contacts) {
         stores_normals_ = true;
         build_normals(bonds, contacts);
     }
 
     /// Adapts the storage to the tables. Call it when the tables have changed.
-    template <class Bonds, class Contacts>
-    void build(std::size_t particles, Bonds const& bonds, Contacts const& contacts) {
+    template <class BondLaw, class ContactLaw>
+    void build(std::size_t particles, pair_table<BondLaw, Real, Dim> const& bonds,
+               pair_table<ContactLaw, Real, Dim> const& contacts) {
         int const chunks = int((particles + chunk_particles - 1) / chunk_particles);
         spans_.build(chunks, threads_, particles, bonds, contacts);
         reuses_memory_ = transient_ && spans_.count() == threads_;
@@ -71,13 +72,13 @@ public:
 
     /// \name Positions of the forces of bonds and contacts
     /// \{
-    template <pair_kind Kind, class Table>
-    force_offsets::row offsets(Table const& table, int chunk) const noexcept {
+    template <pair_kind Kind, class Law>
+    force_offsets::row offsets(pair_table<Law, Real, Dim> const& table, int chunk) const noexcept {
         return offsets_[std::size_t(Kind)].of_chunk(table, chunk);
     }
     /// First force record of a chunk.
-    template <pair_kind Kind, class Table>
-    Real* begin(Table const& table, int chunk) noexcept {
+    template <pair_kind Kind, class Law>
+    Real* begin(pair_table<Law, Real, Dim> const& table, int chunk) noexcept {
         return forces_.of((first_pack<Kind>() + offsets<Kind>(table, chunk).begin) * width);
     }
     /// Force record of the pair in a slot of a table.
@@ -160,8 +161,10 @@ public:
     }
 
     /// Data to prefetch during the evaluation of a chunk.
-    template <class Store, class Bonds, class Contacts>
-    prefetcher::plan plan_prefetch(Store const& store, int chunk, Bonds const& bonds, Contacts const& contacts) const noexcept {
+    template <class BondLaw, class ContactLaw>
+    prefetcher::plan plan_prefetch(particle_store<Real, Dim> const& store, int chunk,
+                                   pair_table<BondLaw, Real, Dim> const& bonds,
+                                   pair_table<ContactLaw, Real, Dim> const& contacts) const noexcept {
         prefetcher::plan plan;
         if (!prefetcher_.pays()) return plan;
         auto const packs_of = [&](auto const& table) {
@@ -180,8 +183,8 @@ public:
     }
 
 private:
-    template <class Bonds, class Contacts>
-    void build_normals(Bonds const& bonds, Contacts const& contacts) {
+    template <class BondLaw, class ContactLaw>
+    void build_normals(pair_table<BondLaw, Real, Dim> const& bonds, pair_table<ContactLaw, Real, Dim> const& contacts) {
         bond_slots_ = bonds.slots();
         resize_with_room(normals_, width + bond_slots_ + contacts.slots());
     }

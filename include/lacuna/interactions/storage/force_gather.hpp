@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <initializer_list>
 #include <numeric>
-#include <tuple>
 #include <vector>
 
 #include <lacuna/interactions/storage/force_offsets.hpp>
@@ -32,9 +31,9 @@ public:
 
     /// \param offsets offsets of the forces of each table
     /// \param tables the pair tables; their forces follow each other in the force column, and one zero force ends it
-    template <class... Tables>
-    void build(std::size_t particles, std::array<force_offsets, sizeof...(Tables)> const& offsets,
-               Tables const&... tables) {
+    template <class... Laws>
+    void build(std::size_t particles, std::array<force_offsets, sizeof...(Laws)> const& offsets,
+               pair_table<Laws, Real, Dim> const&... tables) {
         std::size_t const chunks = (particles + chunk_particles - 1) / chunk_particles;
         degree_.assign(2 * chunks * chunk_particles, 0);
         auto const for_each = [&](auto const& visit) {
@@ -48,7 +47,7 @@ public:
                                 visit(tables.i(s), tables.j(s), std::int32_t(pack * tables.width + k) * reals_per_pair);
                 first += at.count();
             }(), 0)...};
-            constexpr int width = std::get<0>(std::tuple(Tables::width...));
+            constexpr int width = native_width<Real>;
             return std::int32_t(first * width) * reals_per_pair;
         };
         // Two counters per particle: pairs whose first particle it is, and pairs whose second particle it is.

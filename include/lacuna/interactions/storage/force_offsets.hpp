@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <lacuna/core/standard.hpp>
+#include <lacuna/interactions/storage/pair_table.hpp>
 
 namespace lacuna {
 
@@ -19,8 +20,8 @@ class chunk_spans {
 public:
     /// Cuts the chunks anew. Call it when the tables have changed.
     /// \param tables the pair tables; read only for threads > 1
-    template <class... Tables>
-    void build(int chunks, int threads, std::size_t particles, Tables const&... tables) {
+    template <class Real, int Dim, class... Laws>
+    void build(int chunks, int threads, std::size_t particles, pair_table<Laws, Real, Dim> const&... tables) {
         chunks_ = chunks;
         count_ = threads;
         waits_.assign(threads > 1 ? std::size_t(chunks) : 0, 0);
@@ -41,13 +42,13 @@ public:
     bool waits(int chunk) const noexcept { return !waits_.empty() && waits_[std::size_t(chunk)]; }
 
 private:
-    template <class Table>
-    void mark(Table const& table, std::size_t particles) noexcept {
+    template <class Law, class Real, int Dim>
+    void mark(pair_table<Law, Real, Dim> const& table, std::size_t particles) noexcept {
         for (int s = 0; s < count_; ++s)
             for (int c = begin(s); c < std::min(end(s), table.chunks()); ++c)
                 for (std::size_t slot = table.first_slot(c), last = slot + table.chunk_size(c); slot < last; ++slot) {
                     if (table.is_padding(slot, particles)) continue;
-                    int const second = int(table.j(slot) / Table::chunk_particles);
+                    int const second = int(table.j(slot) / table.chunk_particles);
                     if (second >= end(s)) waits_[std::size_t(second)] = 1;
                 }
     }
@@ -65,8 +66,8 @@ private:
 class force_offsets {
 public:
     /// \param transient whether memory is reused
-    template <class Table>
-    void build(Table const& table, std::size_t particles, chunk_spans const& spans, bool transient) {
+    template <class Law, class Real, int Dim>
+    void build(pair_table<Law, Real, Dim> const& table, std::size_t particles, chunk_spans const& spans, bool transient) {
         at_.resize(std::size_t(table.chunks()));
         lifetimes_.assign(at_.size(), 0);
         // Packs in use are counted from chunk to chunk: the spare packs between them need no memory.
@@ -106,8 +107,8 @@ public:
         std::size_t window; ///< number of packs after which the memory is reused from `begin` on
         std::size_t first;  ///< offset of the chunk's first pack from `begin`
     };
-    template <class Table>
-    row of_chunk(Table const& table, int chunk) const noexcept {
+    template <class Law, class Real, int Dim>
+    row of_chunk(pair_table<Law, Real, Dim> const& table, int chunk) const noexcept {
         auto const& at = at_[std::size_t(chunk)];
         return {at.begin, at.window, (table.first_pack(chunk) - at.origin) % at.window};
     }
@@ -123,26 +124,26 @@ private:
     };
     static constexpr std::size_t to_the_end = std::numeric_limits<std::size_t>::max();
 
-    template <class Table>
-    static std::size_t packs_of(Table const& table, int chunk) noexcept {
+    template <class Law, class Real, int Dim>
+    static std::size_t packs_of(pair_table<Law, Real, Dim> const& table, int chunk) noexcept {
         return table.end_pack(chunk) - table.first_pack(chunk);
     }
     /// Number of packs in use up to the end of a chunk.
-    template <class Table>
-    std::size_t end_of(Table const& table, int chunk) const noexcept {
+    template <class Law, class Real, int Dim>
+    std::size_t end_of(pair_table<Law, Real, Dim> const& table, int chunk) const noexcept {
         return table.end_pack(chunk) - at_[std::size_t(chunk)].origin;
     }
     /// Finds the lifetime of each chunk's forces: the largest number of packs from a force of the chunk to the end of
     /// the last chunk that needs it.
-    template <class Table>
-    void find_lifetimes(Table const& table, std::size_t particles, chunk_spans const& spans) noexcept {
+    template <class Law, class Real, int Dim>
+    void find_lifetimes(pair_table<Law, Real, Dim> const& table, std::size_t particles, chunk_spans const& spans) noexcept {
         for (int c = 0; c < table.chunks(); ++c) {
             std::size_t const first = table.first_pack(c), end = table.end_pack(c);
             std::size_t most = std::max<std::size_t>(end - first, 1);
             if (spans.waits(c)) most = to_the_end;
             for (std::size_t s = first * table.width; s < end * table.width; ++s) {
                 if (table.is_padding(s, particles)) continue;
-                int const second = int(table.j(s) / Table::chunk_particles);
+                int const second = int(table.j(s) / table.chunk_particles);
                 most = spans.waits(second)
                            ? to_the_end
                            : std::max(most, end_of(table, second) - (s / table.width - at_[std::size_t(c)].origin));
@@ -151,8 +152,8 @@ private:
         }
     }
     /// Number of packs to reuse in each span that makes the memory smallest.
-    template <class Table>
-    std::size_t best_window(Table const& table, int spans) {
+    template <class Law, class Real, int Dim>
+    std::size_t best_window(pair_table<Law, Real, Dim> const& table, int spans) {
         order_.resize(lifetimes_.size());
         for (std::size_t c = 0; c < order_.size(); ++c) order_[c] = int(c);
         std::sort(order_.begin(), order_.end(),

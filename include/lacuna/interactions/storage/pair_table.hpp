@@ -12,6 +12,7 @@
 #include <lacuna/core/fields.hpp>
 #include <lacuna/core/records.hpp>
 #include <lacuna/laws/law_concepts.hpp>
+#include <lacuna/particles/store.hpp>
 
 namespace lacuna {
 
@@ -44,9 +45,8 @@ public:
 
     /// Replaces all pairs. There are no spare packs afterwards.
     /// \param entries sorted by (i, j)
-    /// \param store particle_store of the particles, with the padding particles
-    template <class Store>
-    void assign(std::span<entry const> entries, Store const& store) {
+    /// \param store the particles, with the padding particles
+    void assign(std::span<entry const> entries, particle_store<Real, Dim> const& store) {
         auto const first = [&](int c) { return first_of_chunk(entries, c); };
         lay_out(chunks_of(store.size()), [&](int c) { return packs_for(std::size_t(first(c + 1) - first(c))); });
         for (int c = 0; c < chunks(); ++c)
@@ -61,8 +61,8 @@ public:
     ///        this or in reverse order; backward() stops once visit() returns false
     /// \param make callable pair -> entry, for pairs that are not in the chunk
     /// \return whether the pairs fit. If not, unwanted pairs are removed and no pair is added; call make_room() then
-    template <class Wanted, class Store, class Make>
-    bool merge(int chunk, Wanted const& wanted, Store const& store, Make const& make) {
+    template <class Wanted, class Make>
+    bool merge(int chunk, Wanted const& wanted, particle_store<Real, Dim> const& store, Make const& make) {
         if (chunk >= chunks()) return false;
         std::size_t const first = first_slot(chunk), old_end = first + chunk_pairs_[std::size_t(chunk)];
         std::size_t known = first, retained = first, end = first;
@@ -92,10 +92,10 @@ public:
         return fits;
     }
     /// Lays the table out anew with the same pairs and with spare packs in every chunk.
-    /// \param store particle_store of the particles, with the padding particles
+    /// \param store the particles, with the padding particles
     /// \param count callable chunk -> number of pairs that must fit, not less than the chunk's present number
-    template <class Store, class Count>
-    void make_room(Store const& store, Count const& count) {
+    template <class Count>
+    void make_room(particle_store<Real, Dim> const& store, Count const& count) {
         pair_table larger;
         larger.lay_out(chunks_of(store.size()), [&](int c) {
             std::size_t const packs = packs_for(count(c));
@@ -110,8 +110,8 @@ public:
     }
 
     /// Removes the pairs for which keep(slot) is false, and all spare packs.
-    template <class Store, class Keep>
-    void filter(Store const& store, Keep const& keep) {
+    template <class Keep>
+    void filter(particle_store<Real, Dim> const& store, Keep const& keep) {
         // In place: a pair only moves towards the front, so it overwrites no pair that is still to move.
         std::size_t packs = 0;
         for (int c = 0; c < chunks(); ++c) {
@@ -233,8 +233,8 @@ private:
     }
     /// Writes the pairs of an empty chunk.
     /// \param write callable that calls push(entry) for each pair, sorted by (i, j)
-    template <class Store, class Write>
-    void fill(int chunk, Store const& store, Write const& write) {
+    template <class Write>
+    void fill(int chunk, particle_store<Real, Dim> const& store, Write const& write) {
         std::size_t const first = first_slot(chunk);
         auto& pairs = chunk_pairs_[std::size_t(chunk)];
         write([&](entry const& e) { put(first + pairs++, e); });
@@ -256,8 +256,7 @@ private:
         state_.set(to, state_.get(from));
     }
     /// Fills the slots after a chunk's pairs with padding pairs, within the first `packs` packs of its range.
-    template <class Store>
-    void fill_up(int chunk, std::size_t packs, Store const& store) noexcept {
+    void fill_up(int chunk, std::size_t packs, particle_store<Real, Dim> const& store) noexcept {
         Real const apart = store.padding_distance();
         std::size_t const first = first_slot(chunk);
         std::size_t slot = first + chunk_pairs_[std::size_t(chunk)];

@@ -39,7 +39,7 @@ public:
     };
 
     /// Finds the particles that each chunk is the first to read. Call it when the tables have changed.
-    /// \param tables the pair tables
+    /// \param tables the pair tables; only chunks(), first_slot(), j() and is_padding() are used
     template <class... Tables>
     void build(std::size_t particles, int chunks, Tables const&... tables) {
         first_use_.assign(particles >= few_particles ? std::size_t(chunks) + 2 : 0, particles);
