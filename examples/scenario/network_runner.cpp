@@ -189,10 +189,7 @@ private:
         f.position = scenario_.particles.position;
         f.velocity.assign(f.position.size(), point{});
         f.intact.assign(scenario_.bonds.pairs.size(), 1);
-        struct {
-            std::int32_t id(std::size_t k) const { return std::int32_t(k); }
-        } const as_given;
-        add_pores(f, flow_->network(), as_given);
+        add_pores(f, flow_->network(), [](std::size_t corner) { return std::int32_t(corner); });
         return f;
     }
 

@@ -516,7 +516,8 @@ frame_data particle_runner<Model>::frame() const {
     }
     for (auto const& record : sim_->pairs().bond_records())
         f.intact.push_back(record.state == lacuna::bond_state::intact);
-    if constexpr (lacuna::has_fluid<Model>) add_pores(f, sim_->flow().network(), sim_->particles());
+    if constexpr (lacuna::has_fluid<Model>)
+        add_pores(f, sim_->flow().network(), [&](std::size_t corner) { return sim_->particles().id(corner); });
     return f;
 }
 

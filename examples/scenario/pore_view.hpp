@@ -5,7 +5,6 @@
 #include <string>
 
 #include <lacuna/core/points.hpp>
-#include <lacuna/particles/store.hpp>
 #include <lacuna/pores/mesh/no_pores.hpp>
 #include <lacuna/pores/mesh/triangulation.hpp>
 #include <lacuna/pores/network/flow_boundaries.hpp>
@@ -121,11 +120,12 @@ void add_pores(run_numbers& n, lacuna::pore_network<Real, 2> const& net, lacuna:
 }
 
 /// Adds the pores for pictures and VTK: triangles of particle ids.
-template <class Real>
-void add_pores(frame_data& f, lacuna::pore_network<Real, 2> const& net, lacuna::particle_store<Real, 2> const& store) {
+/// \param id_of callable corner of the network -> particle id
+template <class Real, class IdOf>
+void add_pores(frame_data& f, lacuna::pore_network<Real, 2> const& net, IdOf const& id_of) {
     for (std::size_t p = 0; p < net.pores(); ++p) {
         frame_data::pore one{};
-        for (std::size_t c = 0; c < 3; ++c) one.corners[c] = store.id(std::size_t(net.corner[c][p]));
+        for (std::size_t c = 0; c < 3; ++c) one.corners[c] = id_of(std::size_t(net.corner[c][p]));
         one.pressure = double(net.pressure[p]);
         one.volume = double(net.volume[p]);
         f.pores.push_back(one);
