@@ -46,8 +46,8 @@ struct block {
     void for_each_neighbour_pair(Visit const& visit) const {
         for (std::size_t n = 0; n < size(); ++n) {
             auto const& c = cell[n];
-            for (auto const& step : {std::array{1, 1, 0}, std::array{-1, 1, 0}, std::array{0, 1, 1}, std::array{0, 1, -1},
-                                     std::array{1, 0, 1}, std::array{-1, 0, 1}}) {
+            for (auto const& step : {std::array{1, 1, 0}, std::array{-1, 1, 0}, std::array{0, 1, 1},
+                                     std::array{0, 1, -1}, std::array{1, 0, 1}, std::array{-1, 0, 1}}) {
                 int const i = c[0] + step[0], j = c[1] + step[1], k = c[2] + step[2];
                 if (i < 0 || i >= columns || j >= rows || k < 0 || k >= layers) continue;
                 visit(std::int32_t(n), number(i, j, k));
@@ -146,12 +146,16 @@ inline void write_lammps(block const& b, std::string const& path) {
     if (!file) throw std::runtime_error("cannot write " + path);
     std::FILE* const f = file.get();
     double const wide = 3, free = 10, end[3] = {b.x.back() + 6, b.y.back() + 6, b.z.back() + 6};
-    std::fprintf(f, "# block %d %d %d %.17g\n\n%zu atoms\n3 atom types\n\n", b.columns, b.rows, b.layers, b.load, b.size());
-    std::fprintf(f, "%g %.9g xlo xhi\n%g %.9g ylo yhi\n%g %.9g zlo zhi\n\nAtoms\n\n", -wide, end[0], -wide, end[1] + free,
-                 -wide, end[2]);
+    std::fprintf(f, "# block %d %d %d %.17g\n\n%zu atoms\n3 atom types\n\n", b.columns, b.rows, b.layers, b.load,
+                 b.size());
+    std::fprintf(f, "%g %.9g xlo xhi\n%g %.9g ylo yhi\n%g %.9g zlo zhi\n\nAtoms\n\n", -wide, end[0], -wide,
+                 end[1] + free, -wide, end[2]);
     for (std::size_t k = 0; k < b.size(); ++k)
-        std::fprintf(f, "%zu %d %.17g 1 %.17g %.17g %.17g\n", k + 1, b.held(k) ? 2 : b.loaded(k) ? 3 : 1, 2 * b.radius[k],
-                     b.x[k], b.y[k], b.z[k]);
+        std::fprintf(f, "%zu %d %.17g 1 %.17g %.17g %.17g\n", k + 1,
+                     b.held(k)     ? 2
+                     : b.loaded(k) ? 3
+                                   : 1,
+                     2 * b.radius[k], b.x[k], b.y[k], b.z[k]);
     if (std::fflush(f) != 0) throw std::runtime_error("cannot write " + path);
 }
 
@@ -165,8 +169,9 @@ inline block read_block(std::string const& path) {
     double load = 0;
     char line[256];
     bool good = std::fgets(line, sizeof line, f) &&
-                std::sscanf(line, "# block %d %d %d %lf", &shape[0], &shape[1], &shape[2], &load) == 4 && shape[0] > 0 &&
-                shape[0] % 2 == 0 && shape[1] > 0 && shape[2] > 0 && *std::max_element(shape.begin(), shape.end()) < 1000;
+                std::sscanf(line, "# block %d %d %d %lf", &shape[0], &shape[1], &shape[2], &load) == 4 &&
+                shape[0] > 0 && shape[0] % 2 == 0 && shape[1] > 0 && shape[2] > 0 &&
+                *std::max_element(shape.begin(), shape.end()) < 1000;
     if (!good) throw std::runtime_error(path + ": not a block");
     block b = detail::lay_out(shape);
     b.load = load;

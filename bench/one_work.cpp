@@ -24,10 +24,11 @@ struct options {
     int threads = 1;
 };
 
-char const usage[] =
-    "usage: bench_one_work [--work full|half|frictional|half_fluid|full3|frictional3] [--real double|float] [--particles N]\n"
-    "                      [--sheet FILE] [--steps N | --seconds S] [--threads N]\n"
-    "       bench_one_work --write FILE [--work W] [--particles N]  only writes the sheet or block as a data file for LAMMPS\n";
+char const usage[] = "usage: bench_one_work [--work full|half|frictional|half_fluid|full3|frictional3] [--real "
+                     "double|float] [--particles N]\n"
+                     "                      [--sheet FILE] [--steps N | --seconds S] [--threads N]\n"
+                     "       bench_one_work --write FILE [--work W] [--particles N]  only writes the sheet or block as "
+                     "a data file for LAMMPS\n";
 
 options parse(int count, char** arguments) {
     options o;
@@ -60,7 +61,8 @@ bench::timing measure(Body const& s, bench::work w, options const& o) {
         auto const start = std::chrono::steady_clock::now();
         long long const probe = std::clamp(160000 / (long long)s.size(), 3LL, 50LL);
         run.run(probe);
-        double const one = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / double(probe);
+        double const one =
+            std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / double(probe);
         // At most 20,000: after 30,000, rounding of positions in single precision changes the energy by 1 %.
         run.run(std::clamp((long long)(o.seconds / one), 5LL, 20000LL));
     }
@@ -93,13 +95,14 @@ int write_or_run(Body const& s, options const& o) {
     rusage usage_now{};
     getrusage(RUSAGE_SELF, &usage_now);
     std::printf("{\"work\": \"%s\", \"particles\": %zu, \"real\": \"%s\", \"threads\": %d, \"ours\": %.6g, "
-                "\"ns_per_pair\": %.4g, \"rss_mb\": %.1f, \"resident_mb\": %.1f, \"steps\": %lld, \"seconds\": %.4g, \"cpu_seconds\": %.4g, \"bonds\": %zu, "
+                "\"ns_per_pair\": %.4g, \"rss_mb\": %.1f, \"resident_mb\": %.1f, \"steps\": %lld, \"seconds\": %.4g, "
+                "\"cpu_seconds\": %.4g, \"bonds\": %zu, "
                 "\"contacts\": %zu, \"throats\": %zu, \"rebuilds\": %lld, \"energy_drift\": %.3g, "
                 "\"ledger_residual\": %.3g, \"momentum_drift\": %.3g, \"good\": %s, \"why\": \"%s\"}\n",
                 o.work.c_str(), r.particles, o.real.c_str(), o.threads, r.rate(), r.nanoseconds_per_pair(),
-                double(usage_now.ru_maxrss) / 1024, r.resident_mb, r.steps, r.seconds, r.cpu_seconds, r.bonds, r.contacts, r.active_throats,
-                r.rebuilds, r.energy_drift, r.ledger_residual, r.momentum_drift, r.found.good ? "true" : "false",
-                r.found.why.c_str());
+                double(usage_now.ru_maxrss) / 1024, r.resident_mb, r.steps, r.seconds, r.cpu_seconds, r.bonds,
+                r.contacts, r.active_throats, r.rebuilds, r.energy_drift, r.ledger_residual, r.momentum_drift,
+                r.found.good ? "true" : "false", r.found.why.c_str());
     return r.found.good ? 0 : 1;
 }
 
@@ -116,8 +119,10 @@ int main(int count, char** arguments) {
     }
     try {
         if (bench::in_space(bench::parse_work(o.work)))
-            return write_or_run(o.sheet_file.empty() ? bench::make_block(o.particles) : bench::read_block(o.sheet_file), o);
-        return write_or_run(o.sheet_file.empty() ? bench::make_sheet(o.particles) : bench::read_lammps(o.sheet_file), o);
+            return write_or_run(o.sheet_file.empty() ? bench::make_block(o.particles) : bench::read_block(o.sheet_file),
+                                o);
+        return write_or_run(o.sheet_file.empty() ? bench::make_sheet(o.particles) : bench::read_lammps(o.sheet_file),
+                            o);
     } catch (std::exception const& error) {
         std::fprintf(stderr, "%s\n", error.what());
         return 1;

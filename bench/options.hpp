@@ -16,7 +16,8 @@ namespace bench {
 /// Reads `--json` and options that take a whole number from 1 to 1024.
 /// \param numbers names of options and the variables for their values
 /// \return false for an unknown option or a bad value
-inline bool read_options(int count, char** words, std::initializer_list<std::pair<char const*, int*>> numbers, bool& json) {
+inline bool read_options(int count, char** words, std::initializer_list<std::pair<char const*, int*>> numbers,
+                         bool& json) {
     for (int k = 1; k < count; ++k) {
         std::string const name = words[k];
         if (name == "--json") {

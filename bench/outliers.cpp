@@ -170,12 +170,14 @@ bool compare(int side, int rounds, long long steps, int threads, bool json) {
     bool good = true;
     for (int w = 0; w < 4; ++w) {
         auto const& f = last[w];
-        good = good && f.missing == 0 && 10 * f.candidates < 11 * last[0].candidates && 10 * f.searches <= 11 * last[0].searches + 10 &&
-               1.1 * f.step > last[0].step;
-        std::printf(json ? "{\"dimension\": %d, \"outlier\": \"%s\", \"ns\": %.4g, \"ratio\": %.4g, \"candidates\": %zu, "
-                           "\"searches\": %lld, \"step\": %.4g, \"missing\": %zu}\n"
-                         : "| %d | %-13s | %6.1f | %5.3f | %8zu | %4lld | %.3e | %zu |\n",
-                    Dim, names[w], bench::median(times[w]), bench::median(ratios[w]), f.candidates, f.searches, f.step, f.missing);
+        good = good && f.missing == 0 && 10 * f.candidates < 11 * last[0].candidates &&
+               10 * f.searches <= 11 * last[0].searches + 10 && 1.1 * f.step > last[0].step;
+        std::printf(
+            json ? "{\"dimension\": %d, \"outlier\": \"%s\", \"ns\": %.4g, \"ratio\": %.4g, \"candidates\": %zu, "
+                   "\"searches\": %lld, \"step\": %.4g, \"missing\": %zu}\n"
+                 : "| %d | %-13s | %6.1f | %5.3f | %8zu | %4lld | %.3e | %zu |\n",
+            Dim, names[w], bench::median(times[w]), bench::median(ratios[w]), f.candidates, f.searches, f.step,
+            f.missing);
     }
     return good;
 }
@@ -185,13 +187,17 @@ bool compare(int side, int rounds, long long steps, int threads, bool json) {
 int main(int count, char** words) {
     int side = 100, rounds = 5, steps = 1000, threads = 1;
     bool json = false;
-    if (!bench::read_options(count, words, {{"--side", &side}, {"--rounds", &rounds}, {"--steps", &steps}, {"--threads", &threads}}, json)) {
+    if (!bench::read_options(count, words,
+                             {{"--side", &side}, {"--rounds", &rounds}, {"--steps", &steps}, {"--threads", &threads}},
+                             json)) {
         std::fprintf(stderr, "usage: bench_outliers [--side N] [--rounds N] [--steps N] [--threads N] [--json]\n");
         return 2;
     }
     try {
-        if (!json) std::printf("| dimension | outlier | ns a particle-step | ratio | candidates | searches | step, s | missing |\n"
-                               "| --- | --- | --- | --- | --- | --- | --- | --- |\n");
+        if (!json)
+            std::printf(
+                "| dimension | outlier | ns a particle-step | ratio | candidates | searches | step, s | missing |\n"
+                "| --- | --- | --- | --- | --- | --- | --- | --- |\n");
         bool const plane = compare<2>(side, rounds, steps, threads, json);
         int const edge = std::max(6, int(std::lround(std::cbrt(double(side) * side))));
         bool const space = compare<3>(edge, rounds, std::max(steps / 4, 1), threads, json);

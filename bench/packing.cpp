@@ -72,7 +72,8 @@ int main(int count, char** arguments) {
                                }));
     lacuna::random_packing_parameters random;
     // The square holds 1e5 discs of the mean area at the wanted area fraction.
-    double const mean_area = 3.14159265358979 * (random.r_max * random.r_max * random.r_max - random.r_min * random.r_min * random.r_min) /
+    double const mean_area = 3.14159265358979 *
+                             (random.r_max * random.r_max * random.r_max - random.r_min * random.r_min * random.r_min) /
                              (3 * (random.r_max - random.r_min));
     random.width = random.height = std::sqrt(1e5 * mean_area / random.area_fraction);
     all.push_back(time_packing("100,000 random discs", rounds, random.width * random.height,
@@ -94,9 +95,10 @@ int main(int count, char** arguments) {
                         k ? "," : "", one.name.c_str(), one.particles, one.seconds, one.area_fraction, one.max_overlap,
                         one.good ? "true" : "false");
         else
-            std::printf("%-26s %7zu particles: %7.2f s, area fraction %.3f, largest overlap %.4f of the smaller radius%s\n",
-                        one.name.c_str(), one.particles, one.seconds, one.area_fraction, one.max_overlap,
-                        one.good ? "" : "; DENSITY OR OVERLAP MISSED");
+            std::printf(
+                "%-26s %7zu particles: %7.2f s, area fraction %.3f, largest overlap %.4f of the smaller radius%s\n",
+                one.name.c_str(), one.particles, one.seconds, one.area_fraction, one.max_overlap,
+                one.good ? "" : "; DENSITY OR OVERLAP MISSED");
     }
     if (json) std::printf("\n]}\n");
     return good ? 0 : 1;

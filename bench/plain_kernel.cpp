@@ -64,7 +64,8 @@ private:
             if (column + 1 < columns_) join(k, k + 1);
             if (row + 1 == rows_) continue;
             for (int const above : {column - 1 + row % 2, column + row % 2})
-                if (above >= 0 && above < columns_) join(k, std::size_t(row + 1) * std::size_t(columns_) + std::size_t(above));
+                if (above >= 0 && above < columns_)
+                    join(k, std::size_t(row + 1) * std::size_t(columns_) + std::size_t(above));
         }
         // The pair after the last has no force: it fills the list of a particle with fewer than three pairs of a kind.
         std::size_t const none = pairs();
@@ -109,9 +110,9 @@ private:
     }
 
     void move(Real dt) {
-        std::int32_t const *__restrict a = own_[0].data(), *__restrict b = own_[1].data(), *__restrict c = own_[2].data(),
-                           *__restrict d = other_[0].data(), *__restrict e = other_[1].data(),
-                           *__restrict f = other_[2].data();
+        std::int32_t const *__restrict a = own_[0].data(), *__restrict b = own_[1].data(),
+                           *__restrict c = own_[2].data(), *__restrict d = other_[0].data(),
+                           *__restrict e = other_[1].data(), *__restrict f = other_[2].data();
         Real const *__restrict px = fx_.data(), *__restrict py = fy_.data(), *__restrict pt = shear_.data(),
                    *__restrict load = load_.data(), *__restrict mobile = free_.data(), *__restrict r = radius_.data();
         Real *__restrict x = x_.data(), *__restrict y = y_.data(), *__restrict vx = vx_.data(),
@@ -141,7 +142,9 @@ template <class Real>
 int run(std::size_t particles, double seconds, char const* name) {
     plain_sheet<Real> sheet(particles);
     using clock = std::chrono::steady_clock;
-    auto const since = [](clock::time_point start) { return std::chrono::duration<double>(clock::now() - start).count(); };
+    auto const since = [](clock::time_point start) {
+        return std::chrono::duration<double>(clock::now() - start).count();
+    };
     auto const steps = [&](long long count) {
         auto const start = clock::now();
         for (long long s = 0; s < count; ++s) sheet.step(Real(0.05));
@@ -151,10 +154,11 @@ int run(std::size_t particles, double seconds, char const* name) {
     auto const count = std::max(20LL, (long long)(seconds / one));
     double const took = steps(count), energy = sheet.kinetic_energy();
     double const work = double(sheet.size()) * double(count);
-    std::printf("{\"work\": \"plain_kernel\", \"particles\": %zu, \"real\": \"%s\", \"ours\": %.6g, \"ns_per_pair\": %.4g, "
-                "\"pairs\": %zu, \"steps\": %lld, \"kinetic_energy\": %.4g}\n",
-                sheet.size(), name, work / took, took * 1e9 / double(count) / double(sheet.pairs()), sheet.pairs(), count,
-                energy);
+    std::printf(
+        "{\"work\": \"plain_kernel\", \"particles\": %zu, \"real\": \"%s\", \"ours\": %.6g, \"ns_per_pair\": %.4g, "
+        "\"pairs\": %zu, \"steps\": %lld, \"kinetic_energy\": %.4g}\n",
+        sheet.size(), name, work / took, took * 1e9 / double(count) / double(sheet.pairs()), sheet.pairs(), count,
+        energy);
     return std::isfinite(energy) && energy > 0 ? 0 : 1;
 }
 

@@ -26,14 +26,16 @@ namespace bench {
 /// workloads use a block of spheres.
 enum class work { full, half, frictional, half_fluid, full3, frictional3 };
 
-inline constexpr std::array<char const*, 6> work_names{"full", "half", "frictional", "half_fluid", "full3", "frictional3"};
+inline constexpr std::array<char const*, 6> work_names{"full",       "half",  "frictional",
+                                                       "half_fluid", "full3", "frictional3"};
 
 inline constexpr bool in_space(work w) { return w == work::full3 || w == work::frictional3; }
 
 inline work parse_work(std::string const& name) {
     for (std::size_t w = 0; w < work_names.size(); ++w)
         if (name == work_names[w]) return work(w);
-    throw std::invalid_argument("work: '" + name + "', must be one of full, half, frictional, half_fluid, full3, frictional3");
+    throw std::invalid_argument("work: '" + name +
+                                "', must be one of full, half, frictional, half_fluid, full3, frictional3");
 }
 
 /// Constants of all workloads, for Lacuna and LAMMPS alike.
@@ -261,8 +263,8 @@ inline void write_lammps(sheet const& s, std::string const& path) {
         high[1] = std::max(high[1], s.y[k] + s.radius[k]);
     }
     std::fprintf(f, "# sheet %d %d %.17g\n\n%zu atoms\n3 atom types\n\n", s.columns, s.rows, s.load, s.size());
-    std::fprintf(f, "%.9g %.9g xlo xhi\n%.9g %.9g ylo yhi\n-3 3 zlo zhi\n\nAtoms\n\n", low[0] - 1, high[0] + 1, low[1] - 1,
-                 high[1] + 10);
+    std::fprintf(f, "%.9g %.9g xlo xhi\n%.9g %.9g ylo yhi\n-3 3 zlo zhi\n\nAtoms\n\n", low[0] - 1, high[0] + 1,
+                 low[1] - 1, high[1] + 10);
     for (std::size_t k = 0; k < s.size(); ++k)
         std::fprintf(f, "%zu %d %.17g 1 %.17g %.17g 0\n", k + 1, s.held(k) ? 2 : s.loaded(k) ? 3 : 1, 2 * s.radius[k],
                      s.x[k], s.y[k]);
@@ -278,7 +280,8 @@ inline sheet read_lammps(std::string const& path) {
     sheet s;
     char line[256];
     bool good = std::fgets(line, sizeof line, f) &&
-                std::sscanf(line, "# sheet %d %d %lf", &s.columns, &s.rows, &s.load) == 3 && s.columns > 0 && s.rows > 0;
+                std::sscanf(line, "# sheet %d %d %lf", &s.columns, &s.rows, &s.load) == 3 && s.columns > 0 &&
+                s.rows > 0;
     while (good && (good = std::fgets(line, sizeof line, f) != nullptr) && std::string(line) != "Atoms\n") {}
     for (std::size_t k = 0; good && k < std::size_t(s.columns) * std::size_t(s.rows); ++k) {
         double diameter = 0, density = 0, x = 0, y = 0;

@@ -330,7 +330,8 @@ void measure_lattices(std::vector<row>& rows, std::vector<known_lattice<Model::d
     for (auto const& k : lattices)
         for (bool const turning : {true, false}) {
             char name[64];
-            std::snprintf(name, sizeof name, "%s, k_s = %g k_n, %s", k.name, k.shear, turning ? "rotating" : "rotation off");
+            std::snprintf(name, sizeof name, "%s, k_s = %g k_n, %s", k.name, k.shear,
+                          turning ? "rotating" : "rotation off");
             rows.push_back(measure<Model>(name, *k.body, {k.shear, turning, 0, 0},
                                           2 / std::sqrt(turning ? k.turning : k.fixed)));
         }
@@ -411,7 +412,8 @@ int main(int count, char** arguments) {
             std::printf(", \"good\": %s}", good(r) ? "true" : "false");
         } else {
             std::printf("%-52s", r.name.c_str());
-            for (double const x : {r.measured, r.wave_limit, r.mean_throat_limit, r.bound, r.theory}) print_number(x, 9, "-");
+            for (double const x : {r.measured, r.wave_limit, r.mean_throat_limit, r.bound, r.theory})
+                print_number(x, 9, "-");
             std::printf(" %9.3f%s\n", r.bound / r.measured, good(r) ? "" : "  WRONG");
         }
     }

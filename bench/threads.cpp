@@ -110,10 +110,11 @@ int main(int count, char** arguments) {
         auto const& c = all[k];
         good = good && c.same_bits;
         if (json)
-            std::printf("%s\n  {\"name\": \"%s\", \"particles\": %zu, \"one\": %.6g, \"several\": %.6g, \"gain\": %.4g, "
-                        "\"same_bits\": %s}",
-                        k ? "," : "", c.name.c_str(), c.particles, c.one, c.several, c.several / c.one,
-                        c.same_bits ? "true" : "false");
+            std::printf(
+                "%s\n  {\"name\": \"%s\", \"particles\": %zu, \"one\": %.6g, \"several\": %.6g, \"gain\": %.4g, "
+                "\"same_bits\": %s}",
+                k ? "," : "", c.name.c_str(), c.particles, c.one, c.several, c.several / c.one,
+                c.same_bits ? "true" : "false");
         else
             std::printf("%-30s %7zu particles: %7.2f M/s on 1, %7.2f M/s on %d: %.2f times%s\n", c.name.c_str(),
                         c.particles, c.one / 1e6, c.several / 1e6, threads, c.several / c.one,

@@ -92,8 +92,8 @@ lacuna::simulation<Model> make_simulation(Body const& s, work w, int threads = 1
         sim.fill_pores([&](auto points, real const* radii) {
             auto const drained_top = [](lacuna::boundary_throat<real, 2> const& throat) {
                 bool const top = throat.side == lacuna::body_side::top;
-                return lacuna::throat_boundary<real>{top ? lacuna::boundary_kind::drained : lacuna::boundary_kind::sealed,
-                                                     real(0)};
+                return lacuna::throat_boundary<real>{
+                    top ? lacuna::boundary_kind::drained : lacuna::boundary_kind::sealed, real(0)};
             };
             return lacuna::make_pore_network(lacuna::triangulate_body(points, radii), points, radii, drained_top);
         });
@@ -128,7 +128,8 @@ struct verdict {
     void demand(bool condition, std::string const& what, double value, double limit) {
         if (condition) return;
         good = false;
-        why += (why.empty() ? "" : "; ") + what + " " + std::to_string(value) + " (limit " + std::to_string(limit) + ")";
+        why +=
+            (why.empty() ? "" : "; ") + what + " " + std::to_string(value) + " (limit " + std::to_string(limit) + ")";
     }
 };
 

@@ -28,8 +28,8 @@ namespace programs {
 
 /// Name and version of a program, its compiler and its optional components.
 inline std::string version_text(std::string const& program) {
-    std::string text = program + " " + std::to_string(LACUNA_VERSION_MAJOR) + "." + std::to_string(LACUNA_VERSION_MINOR) + "." +
-                       std::to_string(LACUNA_VERSION_PATCH);
+    std::string text = program + " " + std::to_string(LACUNA_VERSION_MAJOR) + "." +
+                       std::to_string(LACUNA_VERSION_MINOR) + "." + std::to_string(LACUNA_VERSION_PATCH);
 #if defined(__clang__)
     text.append(", built by clang++ ").append(std::to_string(__clang_major__));
 #elif defined(__GNUC__)
@@ -63,7 +63,8 @@ inline std::string meant(std::string const& word, std::vector<std::string> const
 /// The words as "a, b or c".
 inline std::string list_of(std::vector<std::string> const& words) {
     std::string text;
-    for (std::size_t k = 0; k < words.size(); ++k) text += (k == 0 ? "" : k + 1 < words.size() ? ", " : " or ") + words[k];
+    for (std::size_t k = 0; k < words.size(); ++k)
+        text += (k == 0 ? "" : k + 1 < words.size() ? ", " : " or ") + words[k];
     return text;
 }
 /// The index of a word among the known words.
@@ -71,7 +72,8 @@ inline std::string list_of(std::vector<std::string> const& words) {
 inline std::size_t place_of(std::string const& option, std::string const& word, std::vector<std::string> const& known) {
     auto const at = std::find(known.begin(), known.end(), word);
     if (at != known.end()) return std::size_t(at - known.begin());
-    throw std::invalid_argument(option + " " + (word.empty() ? "''" : word) + ": must be " + list_of(known) + meant(word, known));
+    throw std::invalid_argument(option + " " + (word.empty() ? "''" : word) + ": must be " + list_of(known) +
+                                meant(word, known));
 }
 
 /// Flushes stdout. A closed pipe is no error.
@@ -86,7 +88,8 @@ inline void finish_output() {
     struct stat out {};
     if (fstat(fileno(stdout), &out) == 0 && (S_ISFIFO(out.st_mode) || S_ISSOCK(out.st_mode))) return;
 #endif
-    throw std::runtime_error(std::string("cannot write to the standard output") + (reason != 0 ? std::string(": ") + std::strerror(reason) : ""));
+    throw std::runtime_error(std::string("cannot write to the standard output") +
+                             (reason != 0 ? std::string(": ") + std::strerror(reason) : ""));
 }
 
 namespace detail {

@@ -29,7 +29,8 @@ struct request {
 request parse_command_line(int argc, char const* const* argv) {
     request r;
     CLI::App app("Compares a bonded packing of discs with fluid in its pores with closed forms of poroelasticity.\n"
-                 "Writes CASE.csv and CASE.png. Exit status: 0 done, 1 failed, 2 bad request, 128 + number of a signal that stopped it.",
+                 "Writes CASE.csv and CASE.png. Exit status: 0 done, 1 failed, 2 bad request, 128 + number of a signal "
+                 "that stopped it.",
                  "poroelasticity");
     app.failure_message(CLI::FailureMessage::simple);
     app.add_option("--case", r.name, "terzaghi, mandel, cryer or darcy")->required()->type_name("CASE");
@@ -39,8 +40,8 @@ request parse_command_line(int argc, char const* const* argv) {
     app.add_flag("--quick", r.quick, "a coarse model and a short run");
     app.set_version_flag("--version", programs::version_text("poroelasticity"));
     if (!programs::parse(app, argc, argv)) return r;
-    constexpr decltype(r.run) runs[] = {poroelasticity::run_terzaghi, poroelasticity::run_mandel, poroelasticity::run_cryer,
-                                        poroelasticity::run_darcy};
+    constexpr decltype(r.run) runs[] = {poroelasticity::run_terzaghi, poroelasticity::run_mandel,
+                                        poroelasticity::run_cryer, poroelasticity::run_darcy};
     r.run = runs[programs::place_of("--case", r.name, {"terzaghi", "mandel", "cryer", "darcy"})];
     return r;
 }
@@ -67,7 +68,8 @@ int main(int argc, char** argv) {
         programs::finish_output();
         if (!outcome.stopped) return done;
         std::fprintf(stderr, "poroelasticity: stopped by %s after step %lld; results so far are in %s\n",
-                     lacuna::signal_name(lacuna::stop_signal()).c_str(), outcome.steps, directory.file(r.name + ".csv").c_str());
+                     lacuna::signal_name(lacuna::stop_signal()).c_str(), outcome.steps,
+                     directory.file(r.name + ".csv").c_str());
         return 128 + lacuna::stop_signal();
     } catch (std::invalid_argument const& bad) {
         std::fprintf(stderr, "poroelasticity: %s\n", bad.what());

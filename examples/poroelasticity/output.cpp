@@ -47,7 +47,9 @@ void print_rows(std::FILE* out, outcome const& o) {
                      row.error());
 }
 
-std::vector<std::string> result_names(std::string const& name) { return {name + ".csv", name + ".png", name + "-stopped.json"}; }
+std::vector<std::string> result_names(std::string const& name) {
+    return {name + ".csv", name + ".png", name + "-stopped.json"};
+}
 
 void write_files(lacuna::run_directory& directory, outcome const& o) {
     directory.keep();

@@ -30,7 +30,8 @@ public:
             if (std::none_of(known.begin(), known.end(), [&](auto const& one) { return one.first == text; }))
                 refuse_unknown({&node, path_of(path, text)}, text, known);
         }
-        if (auto const* node = path.empty() ? t.get("simulation") : nullptr) entry(*find_key("simulation"), {node, "simulation"});
+        if (auto const* node = path.empty() ? t.get("simulation") : nullptr)
+            entry(*find_key("simulation"), {node, "simulation"});
         // A key that must be left out is refused before the values of other keys.
         for (bool const applies : {true, false})
             for (auto const& [name, row] : known)
@@ -75,7 +76,9 @@ private:
     bool flow_alone() const { return bare() || !file_["fluid"]["mechanical_coupling"].value_or(true); }
     bool contacts() const { return !flow_alone() && word("contact_law", "frictional_spring") != "none"; }
     bool hertz() const { return contacts() && word("contact_law", "frictional_spring") == "hertz_mindlin"; }
-    bool bonds() const { return !flow_alone() && word("bond_law", "brittle_spring") != "none" && file_.contains("bonds"); }
+    bool bonds() const {
+        return !flow_alone() && word("bond_law", "brittle_spring") != "none" && file_.contains("bonds");
+    }
     bool implicit() const { return file_["fluid"]["solver"].value_or(std::string()) == "implicit"; }
     bool is_number(char const* section) const { return file_[section]["time_step"].value_or(0.0) > 0; }
 
@@ -100,7 +103,8 @@ private:
         auto const* loads = file_["loads"].as_array();
         return loads && std::any_of(loads->begin(), loads->end(), [](toml::node const& one) {
                    auto const* load = one.as_table();
-                   return load && load->contains("pressure") && (*load)["area"].value_or(std::string("strip")) == "strip";
+                   return load && load->contains("pressure") &&
+                          (*load)["area"].value_or(std::string("strip")) == "strip";
                });
     }
 

@@ -30,13 +30,14 @@ void chosen_flow::solver<Real, Dim>::map(lookup_type const& lookup) {
 }
 
 template <class Real, int Dim>
-void chosen_flow::solver<Real, Dim>::refresh_apertures(bodies const& positions, Real const* normal_forces, int threads) {
+void chosen_flow::solver<Real, Dim>::refresh_apertures(bodies const& positions, Real const* normal_forces,
+                                                       int threads) {
     std::visit([&](auto& one) { one.refresh_apertures(positions, normal_forces, threads); }, chosen_);
 }
 
 template <class Real, int Dim>
-void chosen_flow::solver<Real, Dim>::take_step(bool with_ledger, bodies const& positions, Real const* normal_forces, Real dt,
-                                               int threads, records* tractions) {
+void chosen_flow::solver<Real, Dim>::take_step(bool with_ledger, bodies const& positions, Real const* normal_forces,
+                                               Real dt, int threads, records* tractions) {
     std::visit(
         [&](auto& one) {
             if (with_ledger)
@@ -51,7 +52,8 @@ template <class Real, int Dim>
 void chosen_flow::solver<Real, Dim>::advance(Real dt, int threads) {
     std::visit(
         [&](auto& one) {
-            if constexpr (requires { one.template advance<true>(dt, threads); }) one.template advance<true>(dt, threads);
+            if constexpr (requires { one.template advance<true>(dt, threads); })
+                one.template advance<true>(dt, threads);
         },
         chosen_);
 }
@@ -105,7 +107,8 @@ template <class Real, int Dim>
 void chosen_flow::solver<Real, Dim>::restore(network_type network, lacuna::flow_ledger<Real> const& ledger) {
     std::visit(
         [&](auto& one) {
-            if constexpr (requires { one.restore(std::move(network), ledger); }) one.restore(std::move(network), ledger);
+            if constexpr (requires { one.restore(std::move(network), ledger); })
+                one.restore(std::move(network), ledger);
         },
         chosen_);
 }

@@ -81,12 +81,14 @@ struct chosen_flow {
         }
         void refresh_apertures(bodies const& positions, Real const* normal_forces, int threads = 1);
         template <bool WithLedger>
-        void step(bodies const& positions, Real const* normal_forces, Real dt, int threads = 1, records* tractions = nullptr) {
+        void step(bodies const& positions, Real const* normal_forces, Real dt, int threads = 1,
+                  records* tractions = nullptr) {
             take_step(WithLedger, positions, normal_forces, dt, threads, tractions);
         }
         /// One step of flow alone.
         void advance(Real dt, int threads);
-        std::array<lacuna::vec<Real, 2>, 3> pore_tractions(std::size_t pore, points_type points, Real const* radii) const;
+        std::array<lacuna::vec<Real, 2>, 3> pore_tractions(std::size_t pore, points_type points,
+                                                           Real const* radii) const;
         Real critical_time_step() const;
         /// As of the explicit and implicit solver, s; infinite without fluid.
         Real mean_throat_limit() const;

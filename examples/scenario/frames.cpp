@@ -48,7 +48,8 @@ void write_vtk(results& out, frame_data const& f, scenario const& s, journal con
     lacuna::vtk_surface centres;
     centres.coordinates = flat(f.position);
     std::vector<double> material(s.particles.material.begin(), s.particles.material.end());
-    centres.point_data = {{"radius", 1, s.particles.radius}, {"velocity", 3, flat(f.velocity)}, {"material", 1, material}};
+    centres.point_data = {
+        {"radius", 1, s.particles.radius}, {"velocity", 3, flat(f.velocity)}, {"material", 1, material}};
     for (std::size_t k = 0; k < f.position.size(); ++k) centres.add_cell({std::int64_t(k)});
     save("particles", centres);
 

@@ -20,7 +20,8 @@ std::string event_text(scenario const& s, break_line const& b) {
     std::string text = std::to_string(b.step) + "," + lacuna::to_text(b.time) + "," + std::to_string(b.bond) + "," +
                        std::to_string(b.particles[0]) + "," + std::to_string(b.particles[1]);
     text += b.shear ? ",shear" : ",tension";
-    for (int axis = 0; axis < s.simulation.dimension; ++axis) text += "," + lacuna::to_text(b.position[std::size_t(axis)]);
+    for (int axis = 0; axis < s.simulation.dimension; ++axis)
+        text += "," + lacuna::to_text(b.position[std::size_t(axis)]);
     for (double const x : {b.normal_force, b.shear_force, b.energy}) text += "," + lacuna::to_text(x);
     return text + "\n";
 }

@@ -40,7 +40,8 @@ std::string description(key const& k, char const* quote) {
     };
     add(k.unit);
     std::string choices = quote;
-    for (char const* c = k.good.choices; *c != '\0'; ++c) *c == '|' ? choices += std::string(quote) + ", " + quote : choices += *c;
+    for (char const* c = k.good.choices; *c != '\0'; ++c)
+        *c == '|' ? choices += std::string(quote) + ", " + quote : choices += *c;
     if (*k.good.choices != '\0') add(choices + quote);
     add(k.good.text);
     add(k.meaning);
@@ -72,7 +73,8 @@ std::string wrapped(std::string head, std::string const& text) {
 
 /// Whether a default is a TOML value and not a phrase.
 bool is_toml(std::string const& default_value) {
-    return default_value == "true" || default_value == "false" || (!default_value.empty() && default_value.back() == '"') ||
+    return default_value == "true" || default_value == "false" ||
+           (!default_value.empty() && default_value.back() == '"') ||
            (!default_value.empty() && default_value.find_first_not_of("0123456789.e+-") == std::string::npos);
 }
 
@@ -104,9 +106,10 @@ std::string quantities_help() {
 } // namespace
 
 std::string keys_help() {
-    std::string text = "\nA scenario is one TOML file in SI units. \"name = value\" shows a key and its default.\n"
-                       "A key that has no effect together with the others is refused.\n"
-                       "\"Flow alone\": only fluid moves; fluid.network is given, or fluid.mechanical_coupling is false.\n";
+    std::string text =
+        "\nA scenario is one TOML file in SI units. \"name = value\" shows a key and its default.\n"
+        "A key that has no effect together with the others is refused.\n"
+        "\"Flow alone\": only fluid moves; fluid.network is given, or fluid.mechanical_coupling is false.\n";
     for (std::string_view const section : sections) {
         text += "\n" + wrapped(heading(section), description(*find_key(section), "\""));
         for (key const& k : keys) {
@@ -126,9 +129,10 @@ std::string keys_help() {
         }
         if (section == "probes") text += quantities_help();
     }
-    return text + "\nExit status: 0 done, 1 a file could not be written, 2 the scenario is refused (nothing is written),\n"
-                  "3 the run became unstable (results so far are written), 130 and 143 stopped by Ctrl-C and SIGTERM\n"
-                  "(results so far are written, and --restart continues from there).\n";
+    return text +
+           "\nExit status: 0 done, 1 a file could not be written, 2 the scenario is refused (nothing is written),\n"
+           "3 the run became unstable (results so far are written), 130 and 143 stopped by Ctrl-C and SIGTERM\n"
+           "(results so far are written, and --restart continues from there).\n";
 }
 
 std::string keys_markdown(std::string_view section) {

@@ -34,8 +34,8 @@ int finish_stopped(request const& asked, lacuna_run::results& out, lacuna_run::r
 #else
     std::string const how = "this program was built without checkpoints: the run cannot be continued";
 #endif
-    std::fprintf(stderr, "lacuna-run: %s: stopped by %s after step %lld; %s\n", asked.file.c_str(), signal.c_str(), run.steps(),
-                 how.c_str());
+    std::fprintf(stderr, "lacuna-run: %s: stopped by %s after step %lld; %s\n", asked.file.c_str(), signal.c_str(),
+                 run.steps(), how.c_str());
     return 128 + number;
 }
 
@@ -66,7 +66,8 @@ int run(request const& asked) {
     }
     out.finish(run->summary(scenario.simulation.steps ? "steps" : "end_time", ""), true);
     if (!asked.quiet)
-        for (char const* name : {"probes.csv", "events.csv", "summary.json"}) std::printf("%s\n", out.file(name).c_str());
+        for (char const* name : {"probes.csv", "events.csv", "summary.json"})
+            std::printf("%s\n", out.file(name).c_str());
     programs::finish_output();
     return done;
 }
@@ -74,7 +75,9 @@ int run(request const& asked) {
 /// \return the exit status if the command line alone decides it, otherwise -1
 int parse(int argc, char** argv, request& asked) {
     CLI::App app("Simulates bonded particles and pore fluid as described by a TOML file.\n"
-                 "Exit status: 0 done, 1 a file could not be written, 2 refused, 3 the run became unstable, 128 + number of a signal.", "lacuna-run");
+                 "Exit status: 0 done, 1 a file could not be written, 2 refused, 3 the run became unstable, 128 + "
+                 "number of a signal.",
+                 "lacuna-run");
     app.footer(lacuna_run::keys_help());
     app.add_option("FILE", asked.file, "the scenario")->required()->type_name("");
     app.add_flag("--check", asked.check, "only check the scenario");

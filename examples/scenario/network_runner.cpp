@@ -141,7 +141,8 @@ private:
         if (given > 0) {
             if (!fluid_.implicit && !set.allow_unstable_step && !(given <= critical_))
                 refuse(key, lacuna::to_text(given),
-                       "at most the stable limit " + lacuna::to_text(critical_) + " s of the flow, or allow_unstable_step");
+                       "at most the stable limit " + lacuna::to_text(critical_) +
+                           " s of the flow, or allow_unstable_step");
             time_step_ = given;
         } else {
             if (!std::isfinite(critical_)) refuse(key, "\"auto\"", "a number of seconds: no throat conducts fluid");

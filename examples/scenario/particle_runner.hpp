@@ -92,7 +92,9 @@ private:
     };
     static std::vector<drive> drives_of(scenario const& s);
     static std::vector<lacuna::fixed_axes> held_axes(scenario const& s);
-    static lacuna::fixed_axes driven_axes(lacuna::fixed_axes const& held) { return {true, true, dim == 3, held.rotation}; }
+    static lacuna::fixed_axes driven_axes(lacuna::fixed_axes const& held) {
+        return {true, true, dim == 3, held.rotation};
+    }
 
     lacuna::packing<typename Model::real, dim> packing_of() const;
     void build(lacuna::simulation_parameters<Model> const& p);
@@ -181,7 +183,8 @@ auto particle_runner<Model>::drives_of(scenario const& s) -> std::vector<drive> 
         drive& d = all[std::size_t(id)];
         if (d.loaded && d.load_ramp != l.ramp_time)
             refuse("loads[" + std::to_string(number) + "].ramp_time", lacuna::to_text(l.ramp_time),
-                   "equal to that of the other loads on particle " + std::to_string(id) + ", " + lacuna::to_text(d.load_ramp));
+                   "equal to that of the other loads on particle " + std::to_string(id) + ", " +
+                       lacuna::to_text(d.load_ramp));
         d.force += to_vec<dim>(force);
         d.torque += to_vec<lacuna::rotation_dim<dim>>(torque);
         d.load_ramp = l.ramp_time;
@@ -204,9 +207,9 @@ auto particle_runner<Model>::drives_of(scenario const& s) -> std::vector<drive> 
             constexpr double inward[4][2] = {{0, -1}, {0, 1}, {1, 0}, {-1, 0}};
             auto const& direction = inward[int(l.where)];
             for (auto const id : row) {
-                double const force = lacuna::traction_force(l.pressure, s.particles.radius[std::size_t(id)],
-                                                            s.simulation.thickness,
-                                                            l.disc_area ? lacuna::traction_area::disc : lacuna::traction_area::strip);
+                double const force =
+                    lacuna::traction_force(l.pressure, s.particles.radius[std::size_t(id)], s.simulation.thickness,
+                                           l.disc_area ? lacuna::traction_area::disc : lacuna::traction_area::strip);
                 add(id, {force * direction[0], force * direction[1]}, {}, l, n);
             }
         }
@@ -237,7 +240,8 @@ double particle_runner<Model>::resolved_step() {
     try {
         return sim_->resolve_time_step();
     } catch (std::invalid_argument const& bad) {
-        if (!(scenario_.simulation.time_step > 0) && std::string_view(bad.what()).find("without any stiffness") != std::string_view::npos)
+        if (!(scenario_.simulation.time_step > 0) &&
+            std::string_view(bad.what()).find("without any stiffness") != std::string_view::npos)
             refuse("simulation.time_step", "\"auto\"", "a number of seconds: nothing here has a stiffness");
         throw refusal("simulation." + std::string(bad.what()));
     }
@@ -254,8 +258,9 @@ void particle_runner<Model>::check_flow_step([[maybe_unused]] double step) const
         double const limit = double(lacuna::flow_critical_time_step(sim_->flow().network(), fluid->bulk_modulus));
         if (step <= most / 1.01 * limit) return;
         refuse("fluid.solver", "\"explicit\"",
-               "\"implicit\": the stable limit of the explicit flow is " + lacuna::to_text(limit) + " s, and the particles' step of " +
-                   lacuna::to_text(step) + " s would take more than " + std::to_string(most) + " flow steps");
+               "\"implicit\": the stable limit of the explicit flow is " + lacuna::to_text(limit) +
+                   " s, and the particles' step of " + lacuna::to_text(step) + " s would take more than " +
+                   std::to_string(most) + " flow steps");
     }
 }
 
@@ -315,7 +320,8 @@ bool particle_runner<Model>::run(results& out) {
     recorder watch(*this, out);
     auto const& set = scenario_.simulation;
     auto const left = [&] {
-        return set.steps ? double(*set.steps - sim_->steps()) : std::ceil((*set.end_time - sim_->time()) / sim_->time_step());
+        return set.steps ? double(*set.steps - sim_->steps())
+                         : std::ceil((*set.end_time - sim_->time()) / sim_->time_step());
     };
     out.progress().begin(left(), sim_->size(), sim_->steps());
     while (!is_over() && lacuna::stop_signal() == 0) {

@@ -30,11 +30,13 @@ struct any_throat {
 template <class Network>
 void check_pore(pore_location const& location, Network const& net, std::string const& path) {
     if (!location.near && std::size_t(location.pore) >= net.pores())
-        refuse(path, std::to_string(location.pore), "from 0 to " + std::to_string(net.pores() - 1) + ", the last of the pores");
+        refuse(path, std::to_string(location.pore),
+               "from 0 to " + std::to_string(net.pores() - 1) + ", the last of the pores");
 }
 template <class Network>
 void check_location(probe const& p, Network const& net) {
-    bool const of_pores = p.what == quantity::pore_pressure || p.what == quantity::pore_volume || p.what == quantity::throat_flow;
+    bool const of_pores =
+        p.what == quantity::pore_pressure || p.what == quantity::pore_volume || p.what == quantity::throat_flow;
     if (of_pores && p.throat < 0) check_pore(p.where, net, "the pore of probe " + p.column);
 }
 
@@ -62,12 +64,13 @@ void add_sources(fluid_settings const& f, lacuna::pore_network<Real, 2>& net, la
 
 /// Makes the network between particles. \throws std::invalid_argument if there are no pores
 template <class Real>
-lacuna::pore_network<Real, 2> make_network(fluid_settings const& f, lacuna::points_view<Real, 2> points, Real const* radii) {
+lacuna::pore_network<Real, 2> make_network(fluid_settings const& f, lacuna::points_view<Real, 2> points,
+                                           Real const* radii) {
     auto const mesh = lacuna::triangulate_body(points, radii);
     if (mesh.size() == 0) lacuna::refuse_no_pores(points, radii);
-    auto net = f.drained ? lacuna::make_pore_network(
-                               mesh, points, radii,
-                               lacuna::flow_boundaries(lacuna::reservoir("boundary", any_throat{}, f.boundary_pressure)))
+    auto net = f.drained ? lacuna::make_pore_network(mesh, points, radii,
+                                                     lacuna::flow_boundaries(lacuna::reservoir("boundary", any_throat{},
+                                                                                               f.boundary_pressure)))
                          : lacuna::make_pore_network(mesh, points, radii);
     add_sources(f, net, points);
     return net;

@@ -45,7 +45,8 @@ std::string read_pore(table const& t, fluid_settings const& fluid, pore_location
 /// \throws refusal for a quantity that does not exist in this kind of run
 void require_available(quantity_row const& e, value const& from, scenario const& s) {
     bool const flow = e.of == subject::pore || e.of == subject::throat || e.what == quantity::fluid_energy;
-    if (s.flow_alone() && s.fluid->bare() && !flow) from.refuse("one of pores, throats or energy.fluid: there are no particles");
+    if (s.flow_alone() && s.fluid->bare() && !flow)
+        from.refuse("one of pores, throats or energy.fluid: there are no particles");
     if (s.flow_alone() && !flow && e.what != quantity::position)
         from.refuse("left out: fluid.mechanical_coupling is false, particles do not move");
     if (!s.fluid && flow) from.refuse("left out: there is no fluid");

@@ -48,9 +48,9 @@ settings read_settings(value const& from) {
     }
     if (t.has("guards")) {
         table const guards(t["guards"], "simulation.guards");
-        s.guards = {guards.flag("growth"), guards.flag("energy"), guards.flag("overlap"), guards.number("overlap_limit"),
-                    guards.flag("motion"), guards.number("motion_limit"), guards.flag("resolution"), guards.flag("walls"),
-                    guards.flag("pores")};
+        s.guards = {guards.flag("growth"),          guards.flag("energy"), guards.flag("overlap"),
+                    guards.number("overlap_limit"), guards.flag("motion"), guards.number("motion_limit"),
+                    guards.flag("resolution"),      guards.flag("walls"),  guards.flag("pores")};
     }
     return s;
 }
@@ -127,7 +127,11 @@ fixed read_fix(value const& from, std::size_t particles, int dimension) {
     std::string const letters = axes.string();
     if (letters.empty()) axes.refuse(rule);
     for (char const c : letters) {
-        bool* const one = c == 'x' ? &f.x : c == 'y' ? &f.y : c == 'z' && dimension == 3 ? &f.z : c == 'r' ? &f.rotation : nullptr;
+        bool* const one = c == 'x'                     ? &f.x
+                          : c == 'y'                   ? &f.y
+                          : c == 'z' && dimension == 3 ? &f.z
+                          : c == 'r'                   ? &f.rotation
+                                                       : nullptr;
         if (one == nullptr || *one) axes.refuse(rule + (one ? ", each once" : ""));
         *one = true;
     }
@@ -141,7 +145,8 @@ particle_list read_particles(value const& from, scenario const& all, std::string
     if (t.has("file")) {
         value const file = t["file"];
         if (folder.empty()) file.refuse("left out: this scenario has no folder");
-        read_particle_file((std::filesystem::path(folder) / file.string()).string(), file.path, s.dimension, all.materials, p);
+        read_particle_file((std::filesystem::path(folder) / file.string()).string(), file.path, s.dimension,
+                           all.materials, p);
         // With flow alone a file may still have a column of velocities.
         auto const moves = [](point const& v) { return v != point{}; };
         if (all.flow_alone() && (std::any_of(p.velocity.begin(), p.velocity.end(), moves) ||
@@ -185,7 +190,8 @@ bond_list read_bonds(value const& from, scenario const& s) {
         for (value const& one : t["pairs"].list()) {
             auto const ends = one.list();
             if (ends.size() != 2) one.refuse("two particles");
-            pair const p{ends[0].index(s.particles.size(), "particles"), ends[1].index(s.particles.size(), "particles")};
+            pair const p{ends[0].index(s.particles.size(), "particles"),
+                         ends[1].index(s.particles.size(), "particles")};
             if (p[0] == p[1]) one.refuse("two different particles");
             if (!seen.insert({std::min(p[0], p[1]), std::max(p[0], p[1])}).second)
                 one.refuse("a pair that was not listed before");
@@ -196,7 +202,8 @@ bond_list read_bonds(value const& from, scenario const& s) {
     }
     auto const own = [&](char const* key, std::optional<double> lacuna::bond_values::* field) {
         if (!t.has(key)) return;
-        auto const each = one_or_each<double>(t[key], b.pairs.size(), "bond", [](value const& v) { return v.number(); });
+        auto const each =
+            one_or_each<double>(t[key], b.pairs.size(), "bond", [](value const& v) { return v.number(); });
         b.values.resize(b.pairs.size());
         for (std::size_t k = 0; k < each.size(); ++k) b.values[k].*field = each[k];
     };
@@ -258,7 +265,8 @@ void check_loads(scenario const& s) {
             auto const k = std::size_t(id);
             if (s.loads[n].what == load::kind::velocity) {
                 if (moved[k] >= 0 && std::size_t(moved[k]) != n)
-                    refuse(path + ".particles", std::to_string(id), "a particle whose velocity is prescribed only once");
+                    refuse(path + ".particles", std::to_string(id),
+                           "a particle whose velocity is prescribed only once");
                 moved[k] = std::int32_t(n);
             } else {
                 if (forced[k] >= 0 && s.loads[std::size_t(forced[k])].ramp_time != s.loads[n].ramp_time)
@@ -326,14 +334,16 @@ void check_pressures(table const& t, fluid_settings const& f) {
     if (!f.minimum_pressure) return;
     auto const check = [&](std::string const& path, double pressure) {
         if (pressure < *f.minimum_pressure)
-            refuse(path, lacuna::to_text(pressure), ">= fluid.minimum_pressure, " + lacuna::to_text(*f.minimum_pressure));
+            refuse(path, lacuna::to_text(pressure),
+                   ">= fluid.minimum_pressure, " + lacuna::to_text(*f.minimum_pressure));
     };
     check(t.path("initial_pressure"), f.initial_pressure);
     if (f.drained) check(t.path("boundary_pressure"), f.boundary_pressure);
     for (std::size_t k = 0; k < f.reservoirs.size(); ++k)
         check(t.path("reservoirs") + "[" + std::to_string(k) + "].pressure", f.reservoirs[k].pressure);
     for (std::size_t k = 0; k < f.pores.size(); ++k)
-        check(t.path("network.pores") + "[" + std::to_string(k) + "].pressure", f.initial_pressure + f.pores[k].pressure);
+        check(t.path("network.pores") + "[" + std::to_string(k) + "].pressure",
+              f.initial_pressure + f.pores[k].pressure);
 }
 
 fluid_settings read_fluid(value const& from) {
@@ -377,7 +387,8 @@ output_settings read_output(value const& from) {
     output_settings o;
     if (t.has("directory")) {
         o.directory = t["directory"].string();
-        if (o.directory.empty() || o.directory.find('\0') != std::string::npos) t["directory"].refuse("the name of a directory");
+        if (o.directory.empty() || o.directory.find('\0') != std::string::npos)
+            t["directory"].refuse("the name of a directory");
     }
     o.vtk_every = t.whole("vtk_every");
     o.picture_every = t.whole("picture_every");

@@ -17,11 +17,13 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr char const* series_names[] = {"particles", "bonds", "pores"};
-constexpr char const *checkpoint_name = "checkpoint.bin", *regular_name = "checkpoint-regular.bin", *summary_name = "summary.json";
+constexpr char const *checkpoint_name = "checkpoint.bin", *regular_name = "checkpoint-regular.bin",
+                     *summary_name = "summary.json";
 
 std::vector<std::string> known_names() {
-    return {summary_name,      "probes.csv",      "events.csv",  checkpoint_name, regular_name,    "particles.pvd", "bonds.pvd",
-            "pores.pvd",       "particles-#.vtp", "bonds-#.vtp", "pores-#.vtp",   "picture-#.png", "picture-#.svg"};
+    return {summary_name,    "probes.csv",    "events.csv",   checkpoint_name,   regular_name,
+            "particles.pvd", "bonds.pvd",     "pores.pvd",    "particles-#.vtp", "bonds-#.vtp",
+            "pores-#.vtp",   "picture-#.png", "picture-#.svg"};
 }
 
 std::vector<std::pair<std::string, lacuna::file_mark>> marks_of(journal const& j) {
@@ -36,7 +38,9 @@ long long step_of(std::string const& name) {
     return std::strtoll(name.c_str() + dash + 1, nullptr, 10);
 }
 
-std::string name_in(std::string const& directory, std::string const& name) { return (fs::path(directory) / name).string(); }
+std::string name_in(std::string const& directory, std::string const& name) {
+    return (fs::path(directory) / name).string();
+}
 
 void copy_whole(std::string const& from, std::string const& to) {
     lacuna::growing_file::copy_beginning(from, {fs::file_size(from), 0}, to);
@@ -128,10 +132,12 @@ void results::copy_earlier_files() const {
     for (auto const& [name, mark] : marks_of(start_.log))
         if (mark.bytes > 0) lacuna::growing_file::copy_beginning(name_in(start_.directory, name), mark, file(name));
     std::vector<std::string> names;
-    for (auto const& entry : fs::directory_iterator(start_.directory)) names.push_back(entry.path().filename().string());
+    for (auto const& entry : fs::directory_iterator(start_.directory))
+        names.push_back(entry.path().filename().string());
     for (auto const& name : names) {
         auto const step = step_of(name);
-        if (directory_.is_result(name) && step >= 0 && step <= start_.step) copy_whole(name_in(start_.directory, name), file(name));
+        if (directory_.is_result(name) && step >= 0 && step <= start_.step)
+            copy_whole(name_in(start_.directory, name), file(name));
     }
 }
 

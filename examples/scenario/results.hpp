@@ -44,7 +44,8 @@ public:
     void add_frame(std::string const& name, double time, std::string const& frame);
     /// Flushes the growing files to the disk and stores their lengths in the journal.
     void mark(journal& log);
-    /// Call before a stop writes its own checkpoint: saves the last checkpoint of output.checkpoint_every under another name.
+    /// Call before a stop writes its own checkpoint: saves the last checkpoint of output.checkpoint_every under another
+    /// name.
     void set_regular_checkpoint_aside();
     /// Call after a checkpoint of output.checkpoint_every was written.
     void regular_checkpoint_written();

@@ -14,18 +14,21 @@ namespace {
 
 template <int Dim, class Real>
 std::unique_ptr<runner> make(scenario const& s) {
-    if (s.simulation.contact == contact_law::hertz_mindlin) return make_particle_runner<Dim, Real, lacuna::hertz_mindlin>(s);
+    if (s.simulation.contact == contact_law::hertz_mindlin)
+        return make_particle_runner<Dim, Real, lacuna::hertz_mindlin>(s);
     return make_particle_runner<Dim, Real, lacuna::frictional_spring>(s);
 }
 
 std::unique_ptr<runner> build_runner(scenario const& s) {
 #ifndef LACUNA_HAS_PICTURES
     if (s.output.picture_every > 0)
-        refuse("output.picture_every", std::to_string(s.output.picture_every), "0: this program was built without pictures");
+        refuse("output.picture_every", std::to_string(s.output.picture_every),
+               "0: this program was built without pictures");
 #endif
 #ifndef LACUNA_RUN_CHECKPOINTS
     if (s.output.checkpoint_every > 0)
-        refuse("output.checkpoint_every", std::to_string(s.output.checkpoint_every), "0: this program was built without checkpoints");
+        refuse("output.checkpoint_every", std::to_string(s.output.checkpoint_every),
+               "0: this program was built without checkpoints");
 #endif
     if (s.flow_alone()) return make_network_runner(s);
     bool const single = s.simulation.single_precision;
@@ -51,7 +54,8 @@ std::unique_ptr<runner> make_runner(scenario const& s) {
     } catch (std::invalid_argument const& bad) {
         throw refusal(with_scenario_keys(bad.what()));
     } catch (std::runtime_error const& bad) {
-        throw refusal((s.fluid ? "fluid: no pores between the particles of particles.position: " : "") + std::string(bad.what()));
+        throw refusal((s.fluid ? "fluid: no pores between the particles of particles.position: " : "") +
+                      std::string(bad.what()));
     }
 }
 

@@ -47,7 +47,8 @@ std::vector<std::uint8_t> held_axes(particle_list const& p) {
     std::vector<std::uint8_t> held(p.size(), 0);
     for (fixed const& f : p.fix)
         for (auto const id : f.particles)
-            held[std::size_t(id)] = std::uint8_t(held[std::size_t(id)] | (f.x * 1 + f.y * 2 + f.z * 4 + f.rotation * 8));
+            held[std::size_t(id)] =
+                std::uint8_t(held[std::size_t(id)] | (f.x * 1 + f.y * 2 + f.z * 4 + f.rotation * 8));
     return held;
 }
 

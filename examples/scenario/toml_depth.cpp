@@ -34,7 +34,9 @@ void require_shallow(std::string_view text, std::string const& name) {
     std::size_t counted = 0;
     long long line = 1;
     int depth = 0, parts = 0;
-    auto const refuse_here = [&](std::string const& what) { throw refusal(name + ":" + std::to_string(line) + ": " + what); };
+    auto const refuse_here = [&](std::string const& what) {
+        throw refusal(name + ":" + std::to_string(line) + ": " + what);
+    };
     for (std::size_t at = 0; at < text.size();) {
         std::size_t next = at + 1;
         switch (text[at]) {

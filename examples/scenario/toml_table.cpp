@@ -66,8 +66,8 @@ long long value::integer(long long low, long long high, std::string const& rule)
 }
 
 std::int32_t value::index(std::size_t count, std::string const& of) const {
-    std::string const rule =
-        count == 0 ? "left out: there are no " + of : "from 0 to " + std::to_string(count - 1) + ", the last of the " + of;
+    std::string const rule = count == 0 ? "left out: there are no " + of
+                                        : "from 0 to " + std::to_string(count - 1) + ", the last of the " + of;
     return std::int32_t(integer(0, (long long)(count) - 1, rule));
 }
 
@@ -129,7 +129,8 @@ std::string did_you_mean(std::string const& word, std::vector<std::string> const
     return near.empty() ? "" : " (did you mean \"" + near + "\"?)";
 }
 
-table::table(value const& from, std::string rows) : toml_(from.node->as_table()), context_(from.context), path_(from.path), rows_(std::move(rows)) {
+table::table(value const& from, std::string rows)
+    : toml_(from.node->as_table()), context_(from.context), path_(from.path), rows_(std::move(rows)) {
     if (!toml_) from.refuse("a table");
 }
 

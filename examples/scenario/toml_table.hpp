@@ -91,13 +91,17 @@ public:
     /// \{
     double number(char const* key) const;
     /// Empty if the key is left out.
-    std::optional<double> given(char const* key) const { return has(key) ? std::optional((*this)[key].number()) : std::nullopt; }
+    std::optional<double> given(char const* key) const {
+        return has(key) ? std::optional((*this)[key].number()) : std::nullopt;
+    }
     long long whole(char const* key) const;
     bool flag(char const* key) const;
     /// The index of a word among the choices.
     int word(char const* key) const;
     /// A time step, s; 0 for "auto".
-    double step(char const* key) const { return has(key) && !(*this)[key].node->is_string() ? (*this)[key].number() : 0; }
+    double step(char const* key) const {
+        return has(key) && !(*this)[key].node->is_string() ? (*this)[key].number() : 0;
+    }
     /// Zeros if the key is left out.
     point vector(char const* key, int dimension) const;
     /// An empty list if the key is left out.

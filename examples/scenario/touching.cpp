@@ -46,7 +46,8 @@ std::vector<pair> touching_pairs(particle_list const& p, int dimension, value co
     try {
         return dimension == 2 ? search<2>(p, gap.number()) : search<3>(p, gap.number());
     } catch (std::length_error const&) {
-        gap.refuse("a gap within which there are at most " + std::to_string(most_bonds) + " times as many pairs as particles");
+        gap.refuse("a gap within which there are at most " + std::to_string(most_bonds) +
+                   " times as many pairs as particles");
     }
 }
 

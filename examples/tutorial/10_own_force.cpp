@@ -36,7 +36,8 @@ int main() {
     lacuna::simulation<model> sim(planet, p);
     sim.set_velocity(0, {0.0, 1.2}); // m/s
     double farthest = 0;
-    sim.run(12000, lacuna::every(1, [&](auto const& s) { farthest = std::max(farthest, norm(s.position(0))); }),
-            lacuna::at_end([](auto const& s) { std::printf("stable up to a step of %.3g s\n", s.limits().critical()); }));
+    sim.run(
+        12000, lacuna::every(1, [&](auto const& s) { farthest = std::max(farthest, norm(s.position(0))); }),
+        lacuna::at_end([](auto const& s) { std::printf("stable up to a step of %.3g s\n", s.limits().critical()); }));
     return tutorial::check("far end of the orbit, m", farthest, 1.44 / (2 - 1.44), 1e-3);
 }

@@ -55,7 +55,9 @@ constexpr number_option numbers[] = {
 double read_number(std::string const& option, std::string const& word) {
     // The request decides which numbers may be infinite.
     auto const value = lacuna::number_of(word);
-    return value && std::isinf(*value) && word.find_first_of("0123456789") == word.npos ? *value : lacuna::read_number(option, word);
+    return value && std::isinf(*value) && word.find_first_of("0123456789") == word.npos
+               ? *value
+               : lacuna::read_number(option, word);
 }
 
 /// \throws std::invalid_argument with a message of one line for an invalid command line
@@ -63,18 +65,22 @@ command parse_command_line(int argc, char const* const* argv) {
     command w;
     auto& q = w.request;
     std::string words[std::size(numbers)], seed, steps;
-    CLI::App app("Uniaxial compression of a bonded specimen between two platens.\n"
-                 "Writes uniaxial.csv, uniaxial.json, uniaxial.png, uniaxial.svg. SI units.\n"
-                 "Exit status: 0 done, 1 a file could not be written, 2 bad request, 128 + number of a signal that stopped it.",
-                 "uniaxial");
+    CLI::App app(
+        "Uniaxial compression of a bonded specimen between two platens.\n"
+        "Writes uniaxial.csv, uniaxial.json, uniaxial.png, uniaxial.svg. SI units.\n"
+        "Exit status: 0 done, 1 a file could not be written, 2 bad request, 128 + number of a signal that stopped it.",
+        "uniaxial");
     app.failure_message(CLI::FailureMessage::simple);
     app.get_formatter()->column_width(28);
     app.add_option("--specimen", w.specimen, "random or lattice (random)")->type_name("KIND");
     for (std::size_t k = 0; k < std::size(numbers); ++k)
-        app.add_option(numbers[k].option, words[k], std::string(numbers[k].meaning) + " (" + lacuna::to_text(q.*numbers[k].member) + ")")
+        app.add_option(numbers[k].option, words[k],
+                       std::string(numbers[k].meaning) + " (" + lacuna::to_text(q.*numbers[k].member) + ")")
             ->type_name("NUMBER");
-    app.add_option("--seed", seed, "of the packing and the strengths, a whole number (" + std::to_string(q.seed) + ")")->type_name("N");
-    app.add_option("--steps", steps, "number of steps to the final strain (" + std::to_string(q.steps) + ")")->type_name("N");
+    app.add_option("--seed", seed, "of the packing and the strengths, a whole number (" + std::to_string(q.seed) + ")")
+        ->type_name("N");
+    app.add_option("--steps", steps, "number of steps to the final strain (" + std::to_string(q.steps) + ")")
+        ->type_name("N");
     app.add_option("--out", w.out, "directory for the files (.)")->type_name("DIR");
     app.add_flag("--elastic", q.elastic, "bonds never break; measures only the moduli");
     app.add_flag("--force", w.force, "replace the results in DIR");
@@ -88,7 +94,8 @@ command parse_command_line(int argc, char const* const* argv) {
     q.specimen = kinds[programs::place_of("--specimen", w.specimen, {"random", "lattice"})];
     for (std::size_t k = 0; k < std::size(numbers); ++k)
         if (app.count(numbers[k].option) > 0) q.*numbers[k].member = read_number(numbers[k].option, words[k]);
-    if (app.count("--seed") > 0) q.seed = std::uint64_t(lacuna::read_whole("--seed", seed, 0, std::numeric_limits<long long>::max()));
+    if (app.count("--seed") > 0)
+        q.seed = std::uint64_t(lacuna::read_whole("--seed", seed, 0, std::numeric_limits<long long>::max()));
     if (app.count("--steps") > 0) q.steps = lacuna::read_whole("--steps", steps, 1000, 100000000);
     q.validate();
     return w;
@@ -101,7 +108,8 @@ int main(int argc, char** argv) {
         command const w = parse_command_line(argc, argv);
         if (w.help) return done;
         lacuna::watch_stop_signals();
-        lacuna::run_directory directory(w.out, "--out", {"uniaxial.csv", "uniaxial.json", "uniaxial.png", "uniaxial.svg"},
+        lacuna::run_directory directory(w.out, "--out",
+                                        {"uniaxial.csv", "uniaxial.json", "uniaxial.png", "uniaxial.svg"},
                                         w.force ? lacuna::earlier_results::replace : lacuna::earlier_results::refuse);
         lacuna::growing_file rows(directory.file("uniaxial.csv"), uniaxial::row_heading());
         directory.keep();
@@ -121,8 +129,8 @@ int main(int argc, char** argv) {
             uniaxial::print(stdout, outcome);
         programs::finish_output();
         if (outcome.ended.rfind("stopped", 0) != 0) return done;
-        std::fprintf(stderr, "uniaxial: %s after step %lld; results so far are in %s\n", outcome.ended.c_str(), outcome.steps,
-                     directory.file("uniaxial.csv").c_str());
+        std::fprintf(stderr, "uniaxial: %s after step %lld; results so far are in %s\n", outcome.ended.c_str(),
+                     outcome.steps, directory.file("uniaxial.csv").c_str());
         return 128 + lacuna::stop_signal();
     } catch (std::invalid_argument const& bad) {
         std::fprintf(stderr, "uniaxial: %s\n", bad.what());

@@ -55,14 +55,15 @@ void draw_curves(canvas& page, outcome const& o, rectangle const& stress_frame, 
     above.draw_axes();
     above.line(stresses, lacuna::plot_ink(0), 2);
     auto const& peak = o.curve[o.peak];
-    if (!o.asked.elastic) above.markers({{100 * peak.strain, peak.stress / 1e6}}, lacuna::plot_mark::disc, lacuna::plot_ink(0), 4);
+    if (!o.asked.elastic)
+        above.markers({{100 * peak.strain, peak.stress / 1e6}}, lacuna::plot_mark::disc, lacuna::plot_ink(0), 4);
     lacuna::plot below(page, crack_frame, x, {0, 1.08 * cracks, "broken bonds"}, {em, ink});
     below.draw_axes();
     below.line(pulled, tension, 2);
     below.line(sheared, shear, 2);
-    lacuna::draw_legend(page, {crack_frame.left + 14, crack_frame.low + 18},
-                        {{lacuna::legend_mark::line, tension, "in tension"}, {lacuna::legend_mark::line, shear, "in shear"}},
-                        em, ink);
+    lacuna::draw_legend(
+        page, {crack_frame.left + 14, crack_frame.low + 18},
+        {{lacuna::legend_mark::line, tension, "in tension"}, {lacuna::legend_mark::line, shear, "in shear"}}, em, ink);
 }
 
 } // namespace
@@ -72,7 +73,8 @@ void save_picture(std::string const& stem, outcome const& o) {
     double const left = 30 + width + 90;
     lacuna::save_canvas_png_svg(stem, left + 420, top + height + 60, [&](canvas& page) {
         page.clear({1, 1, 1});
-        page.text({30, 30}, "Uniaxial compression of a bonded specimen", 1.25 * em, ink, lacuna::text_align::left, true);
+        page.text({30, 30}, "Uniaxial compression of a bonded specimen", 1.25 * em, ink, lacuna::text_align::left,
+                  true);
         draw_specimen(page, o.end, {30, top, 30 + width, top + height});
         draw_curves(page, o, {left, top, left + 390, top + 0.56 * height},
                     {left, top + 0.72 * height, left + 390, top + height});

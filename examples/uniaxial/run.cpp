@@ -51,7 +51,8 @@ packing make_specimen(request const& q) {
     for (auto const& pair : near.pairs()) {
         auto const i = std::size_t(pair.i), j = std::size_t(pair.j);
         double const gap = widest_gap * std::min(p.radius[i], p.radius[j]);
-        if (lacuna::touches(p.position[i], p.radius[i], p.position[j], p.radius[j], gap)) p.bonds.push_back({pair.i, pair.j});
+        if (lacuna::touches(p.position[i], p.radius[i], p.position[j], p.radius[j], gap))
+            p.bonds.push_back({pair.i, pair.j});
     }
     return p;
 }
@@ -153,7 +154,8 @@ void request::validate() const {
     require_positive("height", height);
     if (!(width >= 8 * radius)) refuse("width", width, "at least 8 radii");
     if (!(height >= 8 * radius)) refuse("height", height, "at least 8 radii");
-    if (!(width / radius * (height / radius) <= 4e5)) refuse("height", height, "such that width * height is at most 4e5 radii squared");
+    if (!(width / radius * (height / radius) <= 4e5))
+        refuse("height", height, "such that width * height is at most 4e5 radii squared");
     require_positive("thickness", thickness);
     require_positive("bond_modulus", bond_modulus);
     lacuna::require_in("shear_ratio", shear_ratio, 0, 10);
@@ -166,11 +168,14 @@ void request::validate() const {
     lacuna::require_in("steps", double(steps), 1000, 1e8);
 }
 
-std::string row_heading() { return "strain,stress_Pa,middle_strain,middle_lateral_strain,tension_cracks,shear_cracks\n"; }
+std::string row_heading() {
+    return "strain,stress_Pa,middle_strain,middle_lateral_strain,tension_cracks,shear_cracks\n";
+}
 
 std::string row_of(sample const& s) {
     return lacuna::to_text(s.strain) + "," + lacuna::to_text(s.stress) + "," + lacuna::to_text(s.middle_strain) + "," +
-           lacuna::to_text(s.lateral_strain) + "," + std::to_string(s.tension_cracks) + "," + std::to_string(s.shear_cracks) + "\n";
+           lacuna::to_text(s.lateral_strain) + "," + std::to_string(s.tension_cracks) + "," +
+           std::to_string(s.shear_cracks) + "\n";
 }
 
 outcome run(request const& asked, lacuna::growing_file* rows, programs::terminal_progress* progress) {
@@ -209,7 +214,8 @@ outcome run(request const& asked, lacuna::growing_file* rows, programs::terminal
         auto const state = test.state(sim);
         auto const middle = middle_strains(sim, specimen);
         for (; counted < cracks.events().size(); ++counted)
-            ++(cracks.events()[counted].mode == lacuna::bond_state::broken_in_tension ? row.tension_cracks : row.shear_cracks);
+            ++(cracks.events()[counted].mode == lacuna::bond_state::broken_in_tension ? row.tension_cracks
+                                                                                      : row.shear_cracks);
         row.strain = state.strain[1];
         row.stress = state.stress[1];
         row.middle_strain = middle[0];

@@ -88,7 +88,8 @@ std::string row_of(sample const& s);
 /// \param rows file that receives the rows of the curve during the run; may be null
 /// \param progress display of the progress; may be null
 /// \throws std::invalid_argument for a bad request, std::runtime_error for a run that failed
-outcome run(request const& asked, lacuna::growing_file* rows = nullptr, programs::terminal_progress* progress = nullptr);
+outcome run(request const& asked, lacuna::growing_file* rows = nullptr,
+            programs::terminal_progress* progress = nullptr);
 
 /// Young's modulus of a strip of `chains` straight chains of touching discs under a load along the chains, referred to
 /// the width of its outline. The strip deforms as the lattice does, but lacks the slanted bonds beyond its outer

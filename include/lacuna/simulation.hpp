@@ -53,11 +53,13 @@ public:
     using interactions_type = typename state_type::interactions_type;
     using event_type = break_event<dim>;
     static_assert(detail::refuse_misspelt_slots<Model>());
-    static_assert(detail::instantiates_formula<contact_law_type, dim> && detail::instantiates_formula<bond_law_type, dim>);
+    static_assert(detail::instantiates_formula<contact_law_type, dim> &&
+                  detail::instantiates_formula<bond_law_type, dim>);
 
     /// \throws std::invalid_argument for a bad packing or parameter; for two particles at the same position; for an
     ///         overlap above guards.overlap_limit; for a particle too far from the origin for the precision
-    explicit simulation(packing<real, dim> const& packing, parameters const& p = {}) : state_(packing, p), clock_(p.start_time) {
+    explicit simulation(packing<real, dim> const& packing, parameters const& p = {})
+        : state_(packing, p), clock_(p.start_time) {
         set_up_hash positions;
         for (auto const& x : packing.position) positions.add(x);
         set_up_.positions = positions.value();
@@ -133,8 +135,8 @@ public:
 
     /// \name Actions on walls, by their number in simulation_parameters::walls; walls() has positions and forces
     /// \{
-    /// Moves a wall. Its velocity changes linearly from its present value to `v` within `ramp_time` from now. The ledger
-    /// counts the work of the wall as work of prescribed motion.
+    /// Moves a wall. Its velocity changes linearly from its present value to `v` within `ramp_time` from now. The
+    /// ledger counts the work of the wall as work of prescribed motion.
     /// \param v m/s
     /// \param ramp_time s; 0: at once
     void move_wall(std::size_t w, point const& v, double ramp_time = 0) {
@@ -263,7 +265,9 @@ public:
     /// \throws std::logic_error without simulation_parameters::keep_pair_forces
     point force(std::size_t id) const { return convert<double>(stored_force(id).force); }
     /// Total torque on a particle, N m, as force().
-    vec<double, rotation_dim<dim>> torque(std::size_t id) const { return convert<double>(stored_force(id).turning) * this->radius(id); }
+    vec<double, rotation_dim<dim>> torque(std::size_t id) const {
+        return convert<double>(stored_force(id).turning) * this->radius(id);
+    }
 
     /// The particles in the library's own order.
     store_type const& particles() const noexcept { return state_.store; }

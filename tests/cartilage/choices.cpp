@@ -124,7 +124,8 @@ TEST_CASE("the search of a calibration finds a known optimum", "[calibration]") 
     request = {};
     request.free = {&find_choice("drainage"), &find_choice("load")};
     request.evaluations = 100;
-    CHECK(calibrate(request, [](choices const& c) { return c.drainage == drainage_rule::sealed ? 1.0 : 2.0; }).size() == 6);
+    CHECK(calibrate(request, [](choices const& c) { return c.drainage == drainage_rule::sealed ? 1.0 : 2.0; }).size() ==
+          6);
 
     struct stop {};
     CHECK_THROWS_AS(calibrate(request, [](choices const&) -> double { throw stop(); }), stop);

@@ -154,7 +154,8 @@ TEST_CASE("masses, strengths and links as chosen") {
         auto const [i, j] = w.discs.bonds[b];
         // Table 1 by material. Beside a free particle only the fibre's strength counts.
         double const table[] = {1e300, 2e8, 9e8, 1e9};
-        double const strength = std::min(table[w.discs.material[std::size_t(i)]], table[w.discs.material[std::size_t(j)]]);
+        double const strength =
+            std::min(table[w.discs.material[std::size_t(i)]], table[w.discs.material[std::size_t(j)]]);
         double const share = b < of_fibres ? 1 : b < of_fibres + w.fibre_links ? 0.5 : 0.25;
         REQUIRE_THAT(*values[b].tensile_force, WithinRel(share * strength * 2 * smaller(w, b) * 3.5e-6, 1e-12));
     }
@@ -187,7 +188,8 @@ TEST_CASE("walls, friction, damping, fluid and boundary as chosen") {
         auto const x = loaded->particles().positions();
         std::array<int, 3> count{}; // at the top, at the bottom, between
         for (std::size_t t = net.interior_throats; t < net.open_throats(); ++t) {
-            double const y = 0.5 * (x[std::size_t(net.throat_particle[0][t])][1] + x[std::size_t(net.throat_particle[1][t])][1]);
+            double const y =
+                0.5 * (x[std::size_t(net.throat_particle[0][t])][1] + x[std::size_t(net.throat_particle[1][t])][1]);
             ++count[y > s.height - 4e-6 ? 0 : y < 3e-6 ? 1 : 2];
         }
         return count;

@@ -68,24 +68,33 @@ TEST_CASE("a stored study with inconsistent lists, numbers out of range or unkno
         json value;
         char const* error;
     } const cases[] = {
-        {"/snapshots/0/fronts/1/depth", json::array(), "snapshots[0].fronts[1].depth = (a list or an object): must be a list of 15 numbers, not 0"},
-        {"/snapshots/0/fronts/2/stress", {1.0, 2.0}, "snapshots[0].fronts[2].stress = (a list or an object): must be a list of 15 numbers, not 2"},
-        {"/snapshots/0/fronts/0/pore_pressure", json::array(), "snapshots[0].fronts[1].pore_pressure = (a list or an object): must be empty"},
+        {"/snapshots/0/fronts/1/depth", json::array(),
+         "snapshots[0].fronts[1].depth = (a list or an object): must be a list of 15 numbers, not 0"},
+        {"/snapshots/0/fronts/2/stress",
+         {1.0, 2.0},
+         "snapshots[0].fronts[2].stress = (a list or an object): must be a list of 15 numbers, not 2"},
+        {"/snapshots/0/fronts/0/pore_pressure", json::array(),
+         "snapshots[0].fronts[1].pore_pressure = (a list or an object): must be empty"},
         {"/snapshots/0/fronts/1/time", 0.0, "snapshots[0].fronts[1].time = 0.0: must be not before"},
         {"/snapshots/0/fronts/1/broken", -1, "snapshots[0].fronts[1].broken = -1: must be a whole number from 0"},
-        {"/snapshots/0/damage/particles/3", 3, "snapshots[0].damage.particles[3] = 3: must be a whole number from 0 to 1"},
+        {"/snapshots/0/damage/particles/3", 3,
+         "snapshots[0].damage.particles[3] = 3: must be a whole number from 0 to 1"},
         {"/snapshots/0/damage/cracks/9", -1, "snapshots[0].damage.cracks[9] = -1: must be a whole number from 0 to 1"},
         {"/snapshots/0/damage/frame", {0, 0, 0, 0}, "snapshots[0].damage.frame"},
-        {"/packings/0/probes/3/cracks/0/4", 1e300, "packings[0].probes[3].cracks[0][4] = 1e+300: must be a whole number"},
+        {"/packings/0/probes/3/cracks/0/4", 1e300,
+         "packings[0].probes[3].cracks[0][4] = 1e+300: must be a whole number"},
         {"/packings/0/probes/3/cracks/0/3", 1, "packings[0].probes[3].cracks[0][3] = 1: must be true or false"},
-        {"/packings/0/probes/3/layers/0/broken", 61, "packings[0].probes[3].layers[0].broken = 61: must be a whole number from 0 to 60"},
-        {"/packings/0/probes/3/layers/0/bonds", 4294967297, "packings[0].probes[3].layers[0].bonds = 4294967297: must be a whole number"},
+        {"/packings/0/probes/3/layers/0/broken", 61,
+         "packings[0].probes[3].layers[0].broken = 61: must be a whole number from 0 to 60"},
+        {"/packings/0/probes/3/layers/0/bonds", 4294967297,
+         "packings[0].probes[3].layers[0].bonds = 4294967297: must be a whole number"},
         {"/packings/0/probes/0/ended", "soon", "packings[0].probes[0].ended = \"soon\": must be one of duration"},
         {"/packings/0/probes/1/load_MPa", 1.0, "packings[0].probes[1].load_MPa = 1.0: must be not below"},
         {"/packings/0/zone", "knee", "packings[0].zone = \"knee\": must be one of surface"},
         {"/packings/0/seed", -1, "packings[0].seed = -1: must be a whole number"},
         {"/packings", 5, "packings = 5: must be a list"},
-        {"/packings/0/first_crack_MPa", 3.0, "packings[0].first_crack_MPa = 3.0: must be within the range of loads, 5 to 1000"},
+        {"/packings/0/first_crack_MPa", 3.0,
+         "packings[0].first_crack_MPa = 3.0: must be within the range of loads, 5 to 1000"},
         {"/resolution", nullptr, "resolution = null: must be a number"},
         {"/highest_MPa", 1.0, "highest_MPa = 1.0: must be above lowest_MPa"},
     };
@@ -103,7 +112,9 @@ TEST_CASE("any value of a stored study may be replaced: the study is refused or 
     json const whole = small_study();
     std::vector<std::string> paths;
     pointers_of(whole, "", paths);
-    json const others[] = {nullptr, -1, 3, 1e300, -1e300, 18446744073709551615u, 0.5, true, "", "x", json::array(), json::object(), {1, 2}};
+    json const others[] = {nullptr, -1,   3,  1e300, -1e300,        18446744073709551615u,
+                           0.5,     true, "", "x",   json::array(), json::object(),
+                           {1, 2}};
     int refused = 0;
     for (std::string const& path : paths)
         for (json const& other : others) {

@@ -75,7 +75,8 @@ snapshot make_snapshot(std::mt19937_64& random, lacuna::cartilage_zone zone, cha
     for (int i = 0; i < 30; ++i)
         for (int j = 0; j < 75; ++j) {
             lacuna::vec<double, 2> const at{(4 * i + 2) * 1e-6, (4 * j + 2) * 1e-6};
-            s.damage.particles.push_back({at, 1.9e-6, j % 4 == 0 ? cartilage::fibre_particle : cartilage::free_particle});
+            s.damage.particles.push_back(
+                {at, 1.9e-6, j % 4 == 0 ? cartilage::fibre_particle : cartilage::free_particle});
             s.damage.pores.push_back({at + lacuna::vec<double, 2>{2e-6, 2e-6}, 1e6 * uniform(random)});
         }
     for (load_run::crack const& c : s.run.cracks) s.damage.cracks.push_back({{c.x, c.y}, {1, 0}, {}});

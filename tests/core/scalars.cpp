@@ -235,7 +235,8 @@ TEST_CASE("messages of refused values", "[error]") {
     double const nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
     REQUIRE_THROWS_WITH(require_positive("a.b", 0.0), "a.b = 0: must be > 0 and finite");
     REQUIRE_THROWS_WITH(require_positive("a.b", inf), "a.b = inf: must be > 0 and finite");
-    REQUIRE_THROWS_WITH(require_positive("a.b", 5e-324), "a.b = 4.94066e-324: must be at least 1e-300"); // its inverse is infinite
+    REQUIRE_THROWS_WITH(require_positive("a.b", 5e-324),
+                        "a.b = 4.94066e-324: must be at least 1e-300"); // its inverse is infinite
     REQUIRE_THROWS_WITH(require_not_negative("a", -0.1), "a = -0.1: must be >= 0 and finite");
     REQUIRE_THROWS_WITH(require_limit("a", nan), "a = nan: must be >= 0");
     REQUIRE_THROWS_WITH(require_in("a", 1.5, 0, 1), "a = 1.5: must be from 0 to 1");

@@ -148,7 +148,8 @@ public:
         record others;
         lacuna::resume_from(again, "written again", other, others);
         auto const twice = lacuna::checkpoint_of(other, others);
-        fuzz::expect(twice.state == again.state && twice.given == again.given, "a state that is read is written with the same bytes");
+        fuzz::expect(twice.state == again.state && twice.given == again.given,
+                     "a state that is read is written with the same bytes");
         fuzz::expect(go_on(run) == go_on(other), "a simulation and its copy continue alike");
     }
 };
@@ -171,10 +172,13 @@ extern "C" int LLVMFuzzerInitialize(int* argc, char*** argv) {
 extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t most, unsigned seed) {
     std::minstd_rand random(seed);
     if (size < 10 || random() % 2 == 0) return LLVMFuzzerMutate(data, size, most);
-    constexpr double nothing = std::numeric_limits<double>::quiet_NaN(), never = std::numeric_limits<double>::infinity();
-    static constexpr double reals[] = {nothing, never, -never, 0.0, -0.0, -1.0, 1.0, 1e308, -1e308, 5e-324, 1e15, 1e-15};
+    constexpr double nothing = std::numeric_limits<double>::quiet_NaN(),
+                     never = std::numeric_limits<double>::infinity();
+    static constexpr double reals[] = {nothing, never, -never, 0.0,    -0.0, -1.0,
+                                       1.0,     1e308, -1e308, 5e-324, 1e15, 1e-15};
     static constexpr float singles[] = {float(nothing), float(never), 0.0f, -1.0f, 1e38f, 1e-45f};
-    static constexpr std::int64_t wholes[] = {0, 1, -1, 2, 8, 255, 1 << 20, 2147483647, 2147483648, std::int64_t(1) << 62};
+    static constexpr std::int64_t wholes[] = {0,   1,       -1,         2,          8,
+                                              255, 1 << 20, 2147483647, 2147483648, std::int64_t(1) << 62};
     for (unsigned k = 1 + unsigned(random() % 3); k > 0; --k) {
         auto const put = [&](auto const& list) {
             auto const value = list[random() % std::size(list)];

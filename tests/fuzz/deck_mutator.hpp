@@ -48,18 +48,22 @@ private:
 
     std::string number() {
         static constexpr char const* extremes[] = {
-            "0", "-0.0", "-1", "1", "2", "3", "0.5", "1e308", "-1e308", "5e-324", "1e30", "1e-30", "1e15", "1e-15", "1e7",
-            "2147483647", "-2147483648", "9223372036854775807", "1e400", "nan", "inf", "0x10", "\"1\"", "true", "[]", "[1.0]"};
+            "0",      "-0.0", "-1",    "1",    "2",     "3",    "0.5",        "1e308",       "-1e308",
+            "5e-324", "1e30", "1e-30", "1e15", "1e-15", "1e7",  "2147483647", "-2147483648", "9223372036854775807",
+            "1e400",  "nan",  "inf",   "0x10", "\"1\"", "true", "[]",         "[1.0]"};
         return one_of(extremes);
     }
 
     void replace_number(std::string& deck) {
         std::vector<std::pair<std::size_t, std::size_t>> found;
         for (std::size_t k = 0; k < deck.size();) {
-            bool const begins = std::isdigit(static_cast<unsigned char>(deck[k])) &&
-                                (k == 0 || !(std::isalnum(static_cast<unsigned char>(deck[k - 1])) || deck[k - 1] == '_'));
+            bool const begins =
+                std::isdigit(static_cast<unsigned char>(deck[k])) &&
+                (k == 0 || !(std::isalnum(static_cast<unsigned char>(deck[k - 1])) || deck[k - 1] == '_'));
             std::size_t end = k;
-            while (begins && end < deck.size() && (std::isalnum(static_cast<unsigned char>(deck[end])) || deck[end] == '.')) ++end;
+            while (begins && end < deck.size() &&
+                   (std::isalnum(static_cast<unsigned char>(deck[end])) || deck[end] == '.'))
+                ++end;
             if (begins) found.emplace_back(k, end - k);
             k = std::max(end, k + 1);
         }
@@ -67,7 +71,8 @@ private:
         auto const [at, length] = one_of(found);
         std::string by = number();
         // A third of the new numbers are variations of the old one.
-        if (below(3) == 0) by = deck.substr(at, length) + one_of(std::vector<std::string>{"e3", "e-3", "1", "e9", "e-9"});
+        if (below(3) == 0)
+            by = deck.substr(at, length) + one_of(std::vector<std::string>{"e3", "e-3", "1", "e9", "e-9"});
         deck.replace(at, length, by);
     }
 
@@ -146,8 +151,10 @@ private:
             if (deck[k] == '"') quotes.push_back(k);
         if (quotes.size() < 2) return;
         std::size_t const first = 2 * below(quotes.size() / 2);
-        static constexpr char const* words[] = {"none", "float", "constant", "implicit", "drained", "hertz_mindlin", "top", "", "m",
-                                                "pore.pressure", "throat.flow", "energy.residual", "contact.normal_force", "xyr", "sphere"};
+        static constexpr char const* words[] = {
+            "none",  "float", "constant",      "implicit",    "drained",         "hertz_mindlin",        "top",
+            "",      "m",     "pore.pressure", "throat.flow", "energy.residual", "contact.normal_force", "xyr",
+            "sphere"};
         deck.replace(quotes[first] + 1, quotes[first + 1] - quotes[first] - 1, one_of(words));
     }
 

@@ -71,8 +71,9 @@ void read_number(std::string_view text) {
 extern "C" int LLVMFuzzerInitialize(int* argc, char*** argv) {
     fuzz::write_seed(*argc, *argv, "csv_plane", "0radius,material,position.x,position.y,spin\n0.5,0,1,2e-3,-4\n");
     fuzz::write_seed(*argc, *argv, "csv_space", "1radius,material,position.x,position.y,position.z\n0.5,0,1,2,3\n");
-    std::string const data = "title\n\n2 atoms\n1 bonds\n\nAtoms # sphere\n\n1 1 1.0 1000 0 0 0\n2 1 1.0 1000 1 0 0\n\nVelocities\n\n"
-                             "1 1 2 0 0 0 3\n\nBonds\n\n1 1 1 2\n";
+    std::string const data =
+        "title\n\n2 atoms\n1 bonds\n\nAtoms # sphere\n\n1 1 1.0 1000 0 0 0\n2 1 1.0 1000 1 0 0\n\nVelocities\n\n"
+        "1 1 2 0 0 0 3\n\nBonds\n\n1 1 1 2\n";
     fuzz::write_seed(*argc, *argv, "lammps_plane", "2" + data);
     fuzz::write_seed(*argc, *argv, "lammps_space", "3" + data);
     fuzz::write_seed(*argc, *argv, "number", "?-12.5e-3");

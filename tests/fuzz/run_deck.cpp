@@ -125,8 +125,9 @@ outcome play(scenario const& s, look how, std::string const& checkpoint = "") {
 
 /// True if only the particles and the fluid between them act on particles.
 bool is_free(scenario const& s) {
-    return s.walls.empty() && s.loads.empty() && s.particles.fix.empty() && s.simulation.gravity == lacuna_run::point{} &&
-           s.simulation.local_damping == 0 && s.simulation.mass_damping == 0;
+    return s.walls.empty() && s.loads.empty() && s.particles.fix.empty() &&
+           s.simulation.gravity == lacuna_run::point{} && s.simulation.local_damping == 0 &&
+           s.simulation.mass_damping == 0;
 }
 
 void check_steps(scenario const& s, outcome const& done) {
@@ -134,12 +135,15 @@ void check_steps(scenario const& s, outcome const& done) {
     fuzz::expect(seen.message == done.message && seen.hash == done.last->hash, "the same run twice has the same end");
     fuzz::expect(seen.finite, "a run that is not reported as unstable is finite");
     double const steps = double(*s.simulation.steps);
-    if (is_free(s)) fuzz::expect(seen.momentum_change <= 8 * steps * seen.momentum_rounding, "the momentum of free particles is conserved");
+    if (is_free(s))
+        fuzz::expect(seen.momentum_change <= 8 * steps * seen.momentum_rounding,
+                     "the momentum of free particles is conserved");
     if (s.simulation.allow_unstable_step) return;
     // The error of the ledger is of second order in the step, except for slip, and for dashpots, whose forces start and
     // stop abruptly.
     double const part = seen.share * (8 * seen.share + 4 * s.simulation.viscous_damping);
-    double const most = std::min(0.5, part) * seen.energy + 4 * seen.share * seen.spent + 64 * steps * seen.energy_rounding;
+    double const most =
+        std::min(0.5, part) * seen.energy + 4 * seen.share * seen.spent + 64 * steps * seen.energy_rounding;
     fuzz::expect(seen.residual <= most, "the energy balance closes");
 }
 
@@ -157,7 +161,8 @@ void check_order(scenario const& s, outcome const& whole) {
     fuzz::expect(other.message.empty() == whole.message.empty(), "a run ends alike with another order of particles");
     if (!whole.message.empty()) return; // an unstable run may have not-a-numbers
     auto const &a = whole.last->state, &b = other.last->state;
-    fuzz::expect(std::equal(a.begin(), a.end(), b.rbegin(), b.rend()), "the order of particles does not change the bits");
+    fuzz::expect(std::equal(a.begin(), a.end(), b.rbegin(), b.rend()),
+                 "the order of particles does not change the bits");
 }
 
 /// Stores the last 512 accepted decks.
@@ -186,7 +191,9 @@ void check_refusal(std::string_view text) {
 extern "C" int LLVMFuzzerInitialize(int*, char***) {
     std::error_code none;
     fs::path const memory = "/dev/shm";
-    scratch = ((fs::is_directory(memory, none) ? memory : fs::temp_directory_path()) / ("lacuna_run_deck." + std::to_string(::getpid()))).string();
+    scratch = ((fs::is_directory(memory, none) ? memory : fs::temp_directory_path()) /
+               ("lacuna_run_deck." + std::to_string(::getpid())))
+                  .string();
     std::atexit([] {
         std::error_code ignored;
         fs::remove_all(scratch, ignored);

@@ -15,7 +15,8 @@ extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size
         for (auto const& p : s.bonds.pairs)
             for (auto const id : p)
                 if (id < 0 || std::size_t(id) >= s.particles.size()) std::abort();
-        if (s.particles.radius.size() != s.particles.size() || s.particles.velocity.size() != s.particles.size()) std::abort();
+        if (s.particles.radius.size() != s.particles.size() || s.particles.velocity.size() != s.particles.size())
+            std::abort();
     } catch (lacuna_run::refusal const& bad) {
         if (std::string_view(bad.what()).find('\n') != std::string_view::npos) std::abort();
     }

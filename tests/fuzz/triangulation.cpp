@@ -116,7 +116,9 @@ class brute_force {
     number reach_ = 0, shift_ = 0;
 
     number coordinate(std::int32_t i, std::size_t a) const { return number(p_.x[std::size_t(i) * dim + a]); }
-    number weight(std::int32_t i) const { return number(p_.radius[std::size_t(i)]) * number(p_.radius[std::size_t(i)]); }
+    number weight(std::int32_t i) const {
+        return number(p_.radius[std::size_t(i)]) * number(p_.radius[std::size_t(i)]);
+    }
     std::array<number, dim> apart(std::int32_t i, std::int32_t from) const {
         std::array<number, dim> u;
         for (std::size_t a = 0; a < dim; ++a) u[a] = coordinate(i, a) - coordinate(from, a);
@@ -143,7 +145,9 @@ public:
         }
         reach_ = largest > 0 ? std::min(extent, 64 * largest) : extent;
         // The shift of heights in space that regular_triangulation() documents.
-        if (Dim == 3) shift_ = largest > 0 ? std::min(1e-7L * extent * extent, 64e-7L * largest * largest) : 1e-7L * extent * extent;
+        if (Dim == 3)
+            shift_ =
+                largest > 0 ? std::min(1e-7L * extent * extent, 64e-7L * largest * largest) : 1e-7L * extent * extent;
     }
 
     /// True if p is outside the orthogonal sphere of s within the allowed change of weights.
@@ -193,22 +197,26 @@ public:
         for (std::size_t t = 0; t < mesh.size(); ++t) {
             auto const& s = mesh.simplices[t];
             for (std::size_t c = 0; c <= dim; ++c) {
-                fuzz::expect(s[c] >= 0 && s[c] < count && std::count(s.begin(), s.end(), s[c]) == 1, "corners are particles, each once");
+                fuzz::expect(s[c] >= 0 && s[c] < count && std::count(s.begin(), s.end(), s[c]) == 1,
+                             "corners are particles, each once");
                 auto const other = mesh.neighbours[t][c];
                 if (other < 0) {
                     for (std::int32_t p = 0; covers && !is_flat(s) && p < count; ++p)
-                        if (!std::count(s.begin(), s.end(), p)) fuzz::expect(is_within(s, c, p), "the mesh covers the hull");
+                        if (!std::count(s.begin(), s.end(), p))
+                            fuzz::expect(is_within(s, c, p), "the mesh covers the hull");
                     continue;
                 }
                 fuzz::expect(std::size_t(other) < mesh.size(), "neighbours are simplices");
                 auto const& back = mesh.neighbours[std::size_t(other)];
-                fuzz::expect(std::find(back.begin(), back.end(), std::int32_t(t)) != back.end(), "neighbours refer to each other");
+                fuzz::expect(std::find(back.begin(), back.end(), std::int32_t(t)) != back.end(),
+                             "neighbours refer to each other");
             }
             std::array<std::array<number, dim>, dim> m;
             for (std::size_t k = 0; k < dim; ++k) m[k] = apart(s[k + 1], s[0]);
             fuzz::expect(determinant(m) >= -1e-17L * product(m), "sizes are above zero");
             for (std::int32_t p = 0; p < count; ++p)
-                if (!std::count(s.begin(), s.end(), p)) fuzz::expect(is_outside(s, p), "no particle enters an orthogonal sphere");
+                if (!std::count(s.begin(), s.end(), p))
+                    fuzz::expect(is_outside(s, p), "no particle enters an orthogonal sphere");
         }
     }
 };

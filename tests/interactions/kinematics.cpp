@@ -71,7 +71,8 @@ TEST_CASE("a rigid motion in the plane gives no slip, at any stretch and through
             };
             double total = 0, largest = 0;
             for (int n = 1; n <= 10 * steps_per_turn; ++n) {
-                body<double, 2> i{position_of(arm_i, n), {}, {spin}, ri, 1}, j{position_of(arm_j, n), {}, {spin}, rj, 1};
+                body<double, 2> i{position_of(arm_i, n), {}, {spin}, ri, 1},
+                    j{position_of(arm_j, n), {}, {spin}, rj, 1};
                 i.velocity = (i.position - position_of(arm_i, n - 1)) / dt;
                 j.velocity = (j.position - position_of(arm_j, n - 1)) / dt;
                 total += relative_motion(i, j, dt).motion.slip[0];
@@ -98,8 +99,8 @@ TEST_CASE("a disc that rolls around another does not slip", "[kinematics]") {
 
 TEST_CASE("a rigid motion in space gives no slip, and the shear force rotates with the pair", "[kinematics][3d]") {
     double const ri = 1.2, rj = 0.7, dt = 1e-3;
-    vec<double, 3> const axes[] = {{0, 0, 1}, {0.6, 0, 0.8}, {1 / std::sqrt(3.0), -1 / std::sqrt(3.0), 1 / std::sqrt(3.0)},
-                                   {0.36, 0.48, 0.8}};
+    vec<double, 3> const axes[] = {
+        {0, 0, 1}, {0.6, 0, 0.8}, {1 / std::sqrt(3.0), -1 / std::sqrt(3.0), 1 / std::sqrt(3.0)}, {0.36, 0.48, 0.8}};
     for (auto const& axis : axes)
         for (double const stretch : {0.9, 1.0, 1.1}) {
             int const steps_per_turn = 4000;
@@ -114,7 +115,8 @@ TEST_CASE("a rigid motion in space gives no slip, and the shear force rotates wi
             auto shear = shear0, moved = vec<double, 3>{};
             double length = 0, away = 0;
             for (int n = 1; n <= 10 * steps_per_turn; ++n) {
-                body<double, 3> i{position_of(arm_i, n), {}, axis * rate, ri, 1}, j{position_of(arm_j, n), {}, axis * rate, rj, 1};
+                body<double, 3> i{position_of(arm_i, n), {}, axis * rate, ri, 1},
+                    j{position_of(arm_j, n), {}, axis * rate, rj, 1};
                 i.velocity = (i.position - position_of(arm_i, n - 1)) / dt;
                 j.velocity = (j.position - position_of(arm_j, n - 1)) / dt;
                 auto const frame = relative_motion(i, j, dt);

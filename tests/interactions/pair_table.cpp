@@ -92,15 +92,17 @@ TEST_CASE("pair_table: pairs are added, stay and are removed within their chunk"
     double next = 100;
     auto const make = [&](lacuna::neighbor_pair const& p) { return contact(p.i, p.j, next++); };
     // A merge makes the new pairs of a chunk from the last to the first, so that their marks count in this order.
-    merge_contacts(candidates(std::vector<pair>{{0, 1}, {0, 3}, {5, 200}, {130, 131}}), bonds_2d(), {}, table, store, 1, make);
-    require_same(content(table, 300), {contact(0, 1, 102), contact(0, 3, 101), contact(5, 200, 100), contact(130, 131, 103)});
+    merge_contacts(candidates(std::vector<pair>{{0, 1}, {0, 3}, {5, 200}, {130, 131}}), bonds_2d(), {}, table, store, 1,
+                   make);
+    require_same(content(table, 300),
+                 {contact(0, 1, 102), contact(0, 3, 101), contact(5, 200, 100), contact(130, 131, 103)});
     REQUIRE(table.chunks() == 3);
     std::vector<std::size_t> const begins{table.first_pack(0), table.first_pack(1), table.first_pack(2), table.packs()};
 
     // First chunk: the first pair is removed, others are added before, between and behind. The second chunk does not
     // change, the third gets its first pair.
-    merge_contacts(candidates(std::vector<pair>{{0, 2}, {0, 3}, {4, 5}, {5, 200}, {5, 201}, {130, 131}, {298, 299}}), bonds_2d(), {},
-                   table, store, 1, make);
+    merge_contacts(candidates(std::vector<pair>{{0, 2}, {0, 3}, {4, 5}, {5, 200}, {5, 201}, {130, 131}, {298, 299}}),
+                   bonds_2d(), {}, table, store, 1, make);
     require_same(content(table, 300), {contact(0, 2, 106), contact(0, 3, 101), contact(4, 5, 105), contact(5, 200, 100),
                                        contact(5, 201, 104), contact(130, 131, 103), contact(298, 299, 107)});
     REQUIRE(table.find(4, 5) == 2);
@@ -117,17 +119,20 @@ TEST_CASE("pair_table: pairs are added, stay and are removed within their chunk"
     REQUIRE(bonds.size() == 1);
     REQUIRE(bonds.label(0) == 0);
     merge_contacts(all, bonds, {contact(5, 200, 7, 3)}, table, store, 1, make);
-    require_same(content(table, 300), {contact(0, 3, 101), contact(5, 200, 7, 3), contact(5, 201, 104), contact(130, 131, 103)});
+    require_same(content(table, 300),
+                 {contact(0, 3, 101), contact(5, 200, 7, 3), contact(5, 201, 104), contact(130, 131, 103)});
     REQUIRE(table.uniform_parameter(0) == -1);
     REQUIRE(table.uniform_parameter(table.first_pack(1)) == 0);
 
     merge_contacts({}, bonds_2d(), {}, table, store, 1, make);
     REQUIRE(content(table, 300).empty());
     // No chunk had to grow.
-    REQUIRE(begins == std::vector<std::size_t>{table.first_pack(0), table.first_pack(1), table.first_pack(2), table.packs()});
+    REQUIRE(begins ==
+            std::vector<std::size_t>{table.first_pack(0), table.first_pack(1), table.first_pack(2), table.packs()});
 }
 
-TEST_CASE("pair_table: a chunk that outgrows its packs gets more, and no history is lost", "[interactions][pair_table]") {
+TEST_CASE("pair_table: a chunk that outgrows its packs gets more, and no history is lost",
+          "[interactions][pair_table]") {
     auto const store = discs(300);
     contacts_2d table;
     auto const make = [](lacuna::neighbor_pair const& p) { return contact(p.i, p.j, 1000 * p.i + p.j); };
@@ -156,7 +161,8 @@ TEST_CASE("pair_table: a chunk that outgrows its packs gets more, and no history
     require_same(content(table, 300), expected);
 }
 
-TEST_CASE("pair_table: after many merges it agrees with a map, for any number of threads", "[interactions][pair_table]") {
+TEST_CASE("pair_table: after many merges it agrees with a map, for any number of threads",
+          "[interactions][pair_table]") {
     int const count = 128 * 5 + 17;
     auto const store = discs(count);
     std::mt19937 gen(42);
@@ -217,9 +223,10 @@ TEST_CASE("pair_table: after many merges it agrees with a map, for any number of
 
         std::size_t const before = tables[0].packs();
         for (std::size_t t = 0; t < tables.size(); ++t) {
-            merge_contacts(candidates(wanted), bonds, added, tables[t], store, int(t) + 1, [&](lacuna::neighbor_pair const& p) {
-                return contact(p.i, p.j, p.i + p.j / 1024.0 + 1e4 * round, row(p.i));
-            });
+            merge_contacts(candidates(wanted), bonds, added, tables[t], store, int(t) + 1,
+                           [&](lacuna::neighbor_pair const& p) {
+                               return contact(p.i, p.j, p.i + p.j / 1024.0 + 1e4 * round, row(p.i));
+                           });
             require_same(content(tables[t], std::size_t(count)), expected);
             REQUIRE(tables[t].packs() == tables[0].packs());
         }
@@ -311,7 +318,8 @@ TEST_CASE("force_offsets: a force stays until it is summed, however far pairs re
             // Spans may run in any order, here the last one first.
             for (int s = threads; s-- > 0;)
                 for (int c = spans.begin(s); c < spans.end(s); ++c) {
-                    for (std::size_t p = table.first_pack(c); p < table.end_pack(c); ++p) stored[offsets(c, p)] = std::ptrdiff_t(p);
+                    for (std::size_t p = table.first_pack(c); p < table.end_pack(c); ++p)
+                        stored[offsets(c, p)] = std::ptrdiff_t(p);
                     if (!spans.waits(c)) sum_up(c);
                 }
             for (int c = 0; c < table.chunks(); ++c)

@@ -40,7 +40,8 @@ simulation<Model> three() {
 TEST_CASE("pair tangents: bonds, then contacts, with stiffness, force and levers", "[interactions][tangent]") {
     auto const run = three<space_of_springs>();
     std::vector<pair_tangent<3>> found;
-    run.pairs().for_each_pair_tangent(run.particles(), run.assumed_contacts(), [&](auto const& t) { found.push_back(t); });
+    run.pairs().for_each_pair_tangent(run.particles(), run.assumed_contacts(),
+                                      [&](auto const& t) { found.push_back(t); });
     REQUIRE(found.size() == 2);
     auto const& bond = found[0];
     auto const& contact = found[1];
@@ -72,7 +73,8 @@ TEST_CASE("pair tangents of a beam carry its resistance to bending", "[interacti
     CHECK(beams == 1);
 }
 
-TEST_CASE("a trial evaluation has the forces of a step and leaves histories and bonds as they are", "[interactions][trial]") {
+TEST_CASE("a trial evaluation has the forces of a step and leaves histories and bonds as they are",
+          "[interactions][trial]") {
     auto run = three<space_of_springs>();
     run.set_velocity(2, {0.1, -0.05, 0});
     run.run(5);

@@ -39,7 +39,8 @@ lacuna::simulation<model> make() {
     p.interactions.initial_contact_tolerance = 0.05;
     p.time_step = 0.01;
     lacuna::simulation<model> run(discs, p);
-    for (std::size_t k = 0; k < run.size(); ++k) run.set_velocity(k, {0.3 * double(k % 5) - 0.6, 0.2 * double(k % 4) - 0.3});
+    for (std::size_t k = 0; k < run.size(); ++k)
+        run.set_velocity(k, {0.3 * double(k % 5) - 0.6, 0.2 * double(k % 4) - 0.3});
     return run;
 }
 

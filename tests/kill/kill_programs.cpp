@@ -26,12 +26,16 @@ std::string deck() {
                          std::to_string(0.8660254 * y) + "]";
     return "[simulation]\nsteps = 3000\ntime_step = 5e-4\n"
            "[materials.disc]\ndensity = 1000.0\nnormal_stiffness = 1e6\nshear_stiffness = 5e5\nfriction = 0.2\n"
-           "tensile_strength = 2e3\nshear_strength = 2e3\n[particles]\nposition = [" + positions + "]\nradius = 0.5\n"
-           "material = \"disc\"\nfix = [{ particles = [0, 1, 2, 3, 4, 5], axes = \"xyr\" }]\n[bonds]\ntouching = true\ngap = 1e-5\n"
+           "tensile_strength = 2e3\nshear_strength = 2e3\n[particles]\nposition = [" +
+           positions +
+           "]\nradius = 0.5\n"
+           "material = \"disc\"\nfix = [{ particles = [0, 1, 2, 3, 4, 5], axes = \"xyr\" }]\n"
+           "[bonds]\ntouching = true\ngap = 1e-5\n"
            "[[loads]]\npressure = 2e4\nmargin_diameters = 1\nramp_time = 0.2\n"
            "[fluid]\nbulk_modulus = 1e6\nconductivity = 1e-3\n"
            "aperture = { law = \"contact_force\", a0 = 1e-2, F0 = 1e4, gap_multiplier = 1.0 }\n"
-           "[[probes]]\nquantity = \"position.y\"\nparticle = 20\n[[probes]]\nquantity = \"energy.friction\"\nevery = 7\n"
+           "[[probes]]\nquantity = \"position.y\"\nparticle = 20\n"
+           "[[probes]]\nquantity = \"energy.friction\"\nevery = 7\n"
            "[[probes]]\nquantity = \"count.broken_shear\"\n[output]\nvtk_every = 250\ncheckpoint_every = 400\n";
 }
 
@@ -65,34 +69,44 @@ files compared(subject const& s, path const& out) {
 }
 
 /// True if a kill during a write may have left a part of it: the system writes page by page.
-bool is_torn(std::string const& bytes, int status) { return status < 0 && bytes.size() % std::size_t(sysconf(_SC_PAGESIZE)) == 0; }
+bool is_torn(std::string const& bytes, int status) {
+    return status < 0 && bytes.size() % std::size_t(sysconf(_SC_PAGESIZE)) == 0;
+}
 
 /// Checks the files that lacuna-run leaves when it is stopped.
 void look_at_run(files const& left, files const& whole, int status) {
     for (char const* log : {"probes.csv", "events.csv"}) {
         auto const at = left.find(log);
         if (at == left.end()) continue;
-        require(at->second.empty() || at->second.back() == '\n' || is_torn(at->second, status), std::string(log) + " has an incomplete last line");
-        require(whole.at(log).compare(0, at->second.size(), at->second) == 0, std::string(log) + " is not the beginning of the complete file");
+        require(at->second.empty() || at->second.back() == '\n' || is_torn(at->second, status),
+                std::string(log) + " has an incomplete last line");
+        require(whole.at(log).compare(0, at->second.size(), at->second) == 0,
+                std::string(log) + " is not the beginning of the complete file");
     }
     for (auto const& [name, bytes] : left) {
-        if (ends_with(name, ".pvd")) require(ends_with(bytes, "</VTKFile>\n") || is_torn(bytes, status), name + " is incomplete");
-        if (ends_with(name, ".vtp") && whole.count(name)) require(whole.at(name) == bytes, name + " is not that of the undisturbed run");
+        if (ends_with(name, ".pvd"))
+            require(ends_with(bytes, "</VTKFile>\n") || is_torn(bytes, status), name + " is incomplete");
+        if (ends_with(name, ".vtp") && whole.count(name))
+            require(whole.at(name) == bytes, name + " is not that of the undisturbed run");
     }
     if (status < 0) {
         // It was killed after it had written everything, or before it continued a part that another signal had stopped.
         if (left.count("summary.json") == 1 && left.at("summary.json") != whole.at("summary.json"))
-            require(left.at("summary.json").find("\"ended\": \"stopped by SIGTERM\"") != std::string::npos, "a killed run has a summary");
+            require(left.at("summary.json").find("\"ended\": \"stopped by SIGTERM\"") != std::string::npos,
+                    "a killed run has a summary");
         return;
     }
     require(status == 128 + SIGTERM, "exit status " + std::to_string(status) + " after SIGTERM");
-    for (auto const& [name, bytes] : left) require(!ends_with(name, ".part") && name != "lacuna.lock", name + " is left after SIGTERM");
-    require(left.at("summary.json").find("\"ended\": \"stopped by SIGTERM\"") != std::string::npos, "the summary is not marked");
+    for (auto const& [name, bytes] : left)
+        require(!ends_with(name, ".part") && name != "lacuna.lock", name + " is left after SIGTERM");
+    require(left.at("summary.json").find("\"ended\": \"stopped by SIGTERM\"") != std::string::npos,
+            "the summary is not marked");
     // No row is lost: the last one is that of the step in which it stopped.
     auto const& rows = left.at("probes.csv");
     auto const last = rows.rfind('\n', rows.size() - 2) + 1;
     std::string const step = rows.substr(last, rows.find(',', last) - last);
-    require(left.at("summary.json").find("\"steps\": " + step + ",") != std::string::npos, "rows are missing up to the stop");
+    require(left.at("summary.json").find("\"steps\": " + step + ",") != std::string::npos,
+            "rows are missing up to the stop");
     require(left.count("checkpoint.bin") == 1, "no checkpoint after SIGTERM");
 }
 
@@ -110,7 +124,8 @@ subject of_run(path const& program) {
 
 bool is_cached_run(std::string const& name) { return name.rfind("cache/", 0) == 0; }
 bool has_cached_runs(files const& all) {
-    return std::any_of(all.begin(), all.end(), [](auto const& file) { return is_cached_run(file.first) && !ends_with(file.first, ".part"); });
+    return std::any_of(all.begin(), all.end(),
+                       [](auto const& file) { return is_cached_run(file.first) && !ends_with(file.first, ".part"); });
 }
 
 /// Checks the files that a study leaves when it is stopped.
@@ -125,7 +140,8 @@ void look_at_study(files const& left, files const& whole, files const& other, in
         }
         if (name == "unfinished-study.json") continue;
         auto const now = whole.find(name), before = other.find(name);
-        bool const is_new = now != whole.end() && now->second == bytes, is_old = before != other.end() && before->second == bytes;
+        bool const is_new = now != whole.end() && now->second == bytes,
+                   is_old = before != other.end() && before->second == bytes;
         require(is_new || is_old, name + " belongs neither to this study nor to the one before");
         results += !is_cached_run(name);
         any_new = any_new || (is_new && !is_old && !is_cached_run(name));
@@ -145,8 +161,9 @@ void look_at_study(files const& left, files const& whole, files const& other, in
 
 /// \param before the directory of another study, which this one replaces; empty: none
 subject of_study(path const& program, path const& before) {
-    words begin{program.string(), "study",    "--quick", "--zones", "surface,deep", "--seeds", "1",     "--duration", "0.3", "--length", "84",
-                "--height",       "42",       "--jobs",  "2",       "--quiet",      "--out",   "out"};
+    words begin{
+        program.string(), "study", "--quick",  "--zones", "surface,deep", "--seeds", "1",       "--duration", "0.3",
+        "--length",       "84",    "--height", "42",      "--jobs",       "2",       "--quiet", "--out",      "out"};
     if (!before.empty()) begin.push_back("--force");
     auto const other = process::files_of(before);
     subject s;
@@ -188,7 +205,8 @@ void try_one(subject const& s, path const& folder, files const& whole, double& l
         // Before it has installed its handler, SIGTERM ends it at once: then it has written nothing.
         if (hard || status > 0) s.look(process::files_of(folder / "out"), whole, status);
         if (!hard && status < 0 && part == 0 && s.before.empty())
-            require(process::files_of(folder / "out").size() <= 1, "SIGTERM ended it at once, but it has written files");
+            require(process::files_of(folder / "out").size() <= 1,
+                    "SIGTERM ended it at once, but it has written files");
         --(hard ? kills : terms);
         ++(hard ? count.killed : count.stopped);
         count.resumed += part > 0;
@@ -204,7 +222,8 @@ void check_owner(subject const& s, path const& folder, files const& whole) {
     path const elsewhere = folder / "second";
     process::fs::remove_all(elsewhere);
     process::fs::create_directories(elsewhere);
-    if (process::fs::exists(folder / "deck.toml")) process::fs::copy_file(folder / "deck.toml", elsewhere / "deck.toml");
+    if (process::fs::exists(folder / "deck.toml"))
+        process::fs::copy_file(folder / "deck.toml", elsewhere / "deck.toml");
     process::fs::create_directory_symlink(folder / "out", elsewhere / "out");
     process::running first(s.begin, folder);
     // Wait until the first one has written its number.
@@ -241,8 +260,8 @@ files check(subject const& s, path const& folder, int kills, int terms) {
         if (kills + terms == before) length *= 0.9; // it ended before the signal
         require(n < 10000, "no signal arrives in time");
     }
-    std::printf("%d killed, %d stopped, %d of them resumed; all ended with the same %zu files\n", count.killed, count.stopped,
-                count.resumed, whole.size());
+    std::printf("%d killed, %d stopped, %d of them resumed; all ended with the same %zu files\n", count.killed,
+                count.stopped, count.resumed, whole.size());
     return whole;
 }
 
@@ -260,7 +279,8 @@ void check_study(path const& program, path const& folder, int kills, int terms) 
     process::running dry(other, before);
     require(dry.wait() == 0, "the other study failed: " + process::read_all(before.string() + ".said"));
     auto const replaced = check(of_study(program, before / "out"), folder, kills / 2, (terms + 1) / 2);
-    require(replaced == first, "a study that replaces another one has other files:" + process::difference(replaced, first));
+    require(replaced == first,
+            "a study that replaces another one has other files:" + process::difference(replaced, first));
 }
 
 } // namespace

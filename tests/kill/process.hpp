@@ -74,7 +74,8 @@ inline std::map<std::string, std::string> files_of(fs::path const& directory) {
     return all;
 }
 /// Names of the files that differ, for a message.
-inline std::string difference(std::map<std::string, std::string> const& a, std::map<std::string, std::string> const& b) {
+inline std::string difference(std::map<std::string, std::string> const& a,
+                              std::map<std::string, std::string> const& b) {
     std::string names;
     for (auto const& [name, bytes] : a)
         if (auto const other = b.find(name); other == b.end() || other->second != bytes) names += " " + name;

@@ -64,7 +64,8 @@ TEST_CASE("law_defaults: two materials combine by a named rule", "[laws][law_def
     CHECK(q.length == 4);
 }
 
-TEST_CASE("law_defaults: a contact starts without force, and takes the shear force of a bond over", "[laws][law_defaults]") {
+TEST_CASE("law_defaults: a contact starts without force, and takes the shear force of a bond over",
+          "[laws][law_defaults]") {
     auto const h = cubic::initial<double, 3>(0.75, 1.0);
     CHECK(h.touching_distance == 0.75);
     CHECK(squared_norm(h.shear_force) == 0);
@@ -94,7 +95,8 @@ TEST_CASE("law_defaults: the stiffness is the formula's derivative, for numbers 
     for (int lane = 1; lane < 4; ++lane) CHECK_THAT(k[lane], WithinRel(exact(0.1 * lane - 0.05), 1e-12));
 }
 
-TEST_CASE("a law without energies: its forces act, and the ledger says that it is incomplete", "[laws][law_defaults][energy]") {
+TEST_CASE("a law without energies: its forces act, and the ledger says that it is incomplete",
+          "[laws][law_defaults][energy]") {
     packing<double, 2> discs;
     discs.add({0, 0}, 0.5);
     discs.add({1.01, 0}, 0.5);
@@ -106,7 +108,8 @@ TEST_CASE("a law without energies: its forces act, and the ledger says that it i
     CHECK(run.velocity(1)[0] > 0.02);
     CHECK_FALSE(run.energy().complete);
     CHECK(std::isnan(run.energy().residual()));
-    CHECK_THAT(run.mass(0) * run.velocity(0)[0] + run.mass(1) * run.velocity(1)[0], WithinRel(run.mass(0) * 0.05, 1e-12));
+    CHECK_THAT(run.mass(0) * run.velocity(0)[0] + run.mass(1) * run.velocity(1)[0],
+               WithinRel(run.mass(0) * 0.05, 1e-12));
     struct complete : default_model<2> {};
     simulation<complete> other(discs);
     other.step_with_energy();

@@ -89,7 +89,8 @@ void check_lanes() {
         for (int k = 0; k < W; ++k) {
             auto const s = std::size_t(k);
             auto const one = Law::evaluate(parameter[s], motion[s], history[s]);
-            // The compiler may contract products and sums differently: a few roundings of the largest terms are allowed.
+            // The compiler may contract products and sums differently: a few roundings of the largest terms are
+            // allowed.
             double const eps = 16 * double(std::numeric_limits<Real>::epsilon());
             auto const same = [&](Real a, Real b, double scale) {
                 REQUIRE_THAT(double(a), WithinAbs(double(b), eps * scale));
@@ -197,7 +198,8 @@ TEST_CASE("tangents of the contact", "[dual]") {
     REQUIRE(apart.normal_force.derivative[0] == 0);
     REQUIRE(apart.shear_force[0].derivative[1] == 0);
     for (double const distance : {2.9, 3.1})
-        for (double const slip : {0.01, 0.2, -0.3}) check_against_differences<frictional_spring>(p, distance, slip, 1, 3);
+        for (double const slip : {0.01, 0.2, -0.3})
+            check_against_differences<frictional_spring>(p, distance, slip, 1, 3);
 }
 
 TEST_CASE("tangents of the bond", "[dual]") {

@@ -66,8 +66,10 @@ TEST_CASE("a bond's strength depends on its particles and the seed alone", "[wei
         REQUIRE(*values[b].strength_factor == *again[bonds.size() - 1 - b].strength_factor);
     REQUIRE(*values[0].strength_factor != *weibull_strengths{5, 4}.draw(bonds)[0].strength_factor);
     REQUIRE(*values[0].strength_factor != *values[1].strength_factor);
-    REQUIRE_THROWS_WITH((weibull_strengths{0.0, 1}.draw(bonds)), contains_text("weibull_strengths.modulus = 0: must be > 0"));
-    REQUIRE_THROWS_WITH((weibull_strengths{0.05, 1}.draw(bonds)), contains_text("weibull_strengths.modulus = 0.05: must be at least 0.1"));
+    REQUIRE_THROWS_WITH((weibull_strengths{0.0, 1}.draw(bonds)),
+                        contains_text("weibull_strengths.modulus = 0: must be > 0"));
+    REQUIRE_THROWS_WITH((weibull_strengths{0.05, 1}.draw(bonds)),
+                        contains_text("weibull_strengths.modulus = 0.05: must be at least 0.1"));
 }
 
 TEST_CASE("a strength factor scales the strengths of the materials", "[bond values]") {
@@ -187,7 +189,8 @@ TEST_CASE("the moment against rolling: spring, limit and energy", "[rolling]") {
     REQUIRE(law::evaluate(p, apart, {{part}, 0.0}, b.history).bending_moment[0] == 0);
     // In space the moment is a vector, clipped in length.
     pair_motion<double, 3> const ball{ri + rj - overlap, ri, rj, {}, 0};
-    auto const d = law::evaluate(p, ball, {{0, 3 * far, 4 * far}, 0.0, {1, 0, 0}}, law::initial<double, 3>(ri + rj, ri + rj));
+    auto const d =
+        law::evaluate(p, ball, {{0, 3 * far, 4 * far}, 0.0, {1, 0, 0}}, law::initial<double, 3>(ri + rj, ri + rj));
     REQUIRE_THAT(d.bending_moment[1], WithinRel(0.6 * limit, 1e-9));
     REQUIRE_THAT(d.bending_moment[2], WithinRel(0.8 * limit, 1e-9));
     REQUIRE(d.twisting_moment == 0);

@@ -55,7 +55,8 @@ course follow(outlier kind, std::size_t n, int steps, bool brute = true) {
         for (std::size_t i = 0; i < n; ++i) {
             points[i] += velocities[i];
             for (int axis = 0; axis < Dim; ++axis) // within the box
-                if (i + 1 < n && std::fabs(points[i][axis] - Real(Dim == 2 ? 30 : 9)) > Real(Dim == 2 ? 30 : 9)) velocities[i][axis] *= -1;
+                if (i + 1 < n && std::fabs(points[i][axis] - Real(Dim == 2 ? 30 : 9)) > Real(Dim == 2 ? 30 : 9))
+                    velocities[i][axis] *= -1;
         }
         if (points.back()[0] > Real(Dim == 2 ? 60 : 18)) velocities.back()[0] = -std::fabs(velocities.back()[0]);
         if (points.back()[0] < 0) velocities.back()[0] = std::fabs(velocities.back()[0]);
@@ -83,9 +84,9 @@ course follow(outlier kind, std::size_t n, int steps, bool brute = true) {
 
 } // namespace
 
-TEMPLATE_TEST_CASE("a list of particles of all speeds and sizes misses no pair, and is built no more often", "[neighbors][outliers]",
-                   (lacuna::cell_grid<double, 2>), (lacuna::cell_grid<float, 2>), (lacuna::cell_grid<double, 3>),
-                   (lacuna::cell_grid<float, 3>), (lacuna::kd_tree<double, 2>)) {
+TEMPLATE_TEST_CASE("a list of particles of all speeds and sizes misses no pair, and is built no more often",
+                   "[neighbors][outliers]", (lacuna::cell_grid<double, 2>), (lacuna::cell_grid<float, 2>),
+                   (lacuna::cell_grid<double, 3>), (lacuna::cell_grid<float, 3>), (lacuna::kd_tree<double, 2>)) {
     auto const usual = follow<TestType>(outlier::none, 400, 300);
     auto const fast = follow<TestType>(outlier::fast, 400, 300);
     auto const huge = follow<TestType>(outlier::huge, 400, 300);
@@ -110,7 +111,8 @@ TEST_CASE("only a few particles that are much faster than all others get a large
     auto const choose = [&] { own.choose(lacuna::view_points(now), before, radii, 1.0, 1e30); };
     choose();
     for (std::size_t k = 0; k < 300; ++k) CHECK(own.ordinary(k));
-    now[7][1] = 1.5; // 3 times the displacement of the others: 3 times half a skin, 25 % more, plus a quarter of the skin
+    now[7][1] =
+        1.5; // 3 times the displacement of the others: 3 times half a skin, 25 % more, plus a quarter of the skin
     choose();
     CHECK_THAT(own[7], Catch::Matchers::WithinRel(1.5 * 2 * 1.25 + 0.5, 1e-12));
     now[7][1] = 180;
@@ -170,7 +172,8 @@ void check_huge_in_period() {
             radii.push_back(Real(0.2 + 0.1 * clouds::uniform(rng)));
         }
         radii[100] = 4;
-        for (int axis = 0; axis < Dim; ++axis) points[100][axis] = seed == 1 ? Real(0.5) : seed == 2 ? length - 1 : length / 2;
+        for (int axis = 0; axis < Dim; ++axis)
+            points[100][axis] = seed == 1 ? Real(0.5) : seed == 2 ? length - 1 : length / 2;
         lacuna::vec<Real, Dim> period{};
         for (int axis = 0; axis < Dim; ++axis) period[axis] = length;
         lacuna::periodic_search<Search> search;
@@ -180,8 +183,10 @@ void check_huge_in_period() {
         auto const periods = lacuna::periods<double, Dim>::of(lacuna::convert<double>(period));
         for (std::size_t i = 0; i < points.size(); ++i)
             for (std::size_t j = i + 1; j < points.size(); ++j) {
-                auto const between = periods.shortest(lacuna::convert<double>(points[j]) - lacuna::convert<double>(points[i]));
-                if (norm(between) <= double(radii[i]) + double(radii[j]) + double(margin)) expected.push_back({std::int32_t(i), std::int32_t(j)});
+                auto const between =
+                    periods.shortest(lacuna::convert<double>(points[j]) - lacuna::convert<double>(points[i]));
+                if (norm(between) <= double(radii[i]) + double(radii[j]) + double(margin))
+                    expected.push_back({std::int32_t(i), std::int32_t(j)});
             }
         CHECK(expected.size() > 20);
         CHECK(found == expected);

@@ -60,12 +60,16 @@ std::vector<neighbor_pair> by_definition(cloud<Real, Dim> const& c, vec<Real, Di
 
 /// The list must have all pairs of the definition. Others may only be due to rounded positions.
 template <class Real, int Dim>
-void check_list(std::vector<neighbor_pair> const& found, cloud<Real, Dim> const& c, vec<Real, Dim> const& period, double margin) {
-    auto const before = [](neighbor_pair const& a, neighbor_pair const& b) { return a.i < b.i || (a.i == b.i && a.j < b.j); };
+void check_list(std::vector<neighbor_pair> const& found, cloud<Real, Dim> const& c, vec<Real, Dim> const& period,
+                double margin) {
+    auto const before = [](neighbor_pair const& a, neighbor_pair const& b) {
+        return a.i < b.i || (a.i == b.i && a.j < b.j);
+    };
     double const rounding = 500 * double(std::numeric_limits<Real>::epsilon());
     auto const inside = by_definition(c, period, margin), around = by_definition(c, period, margin + rounding);
     REQUIRE(inside.size() > 50);
-    CHECK(std::adjacent_find(found.begin(), found.end(), std::not_fn(before)) == found.end()); // sorted, without duplicates
+    CHECK(std::adjacent_find(found.begin(), found.end(), std::not_fn(before)) ==
+          found.end()); // sorted, without duplicates
     CHECK(std::includes(found.begin(), found.end(), inside.begin(), inside.end(), before));
     CHECK(std::includes(around.begin(), around.end(), found.begin(), found.end(), before));
 }

@@ -112,8 +112,11 @@ TEST_CASE("a full disk leaves whole lines and an error message", "[growing]") {
 
 TEST_CASE("a collection is complete after each frame and can be cut back to a time", "[growing][vtk]") {
     scratch_directory const dir;
-    std::string const path = dir.file("run.pvd"), head = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\">\n<Collection>\n";
-    auto const entry = [](std::string const& time) { return "<DataSet timestep=\"" + time + "\" file=\"f-" + time + ".vtp\"/>\n"; };
+    std::string const path = dir.file("run.pvd"),
+                      head = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\">\n<Collection>\n";
+    auto const entry = [](std::string const& time) {
+        return "<DataSet timestep=\"" + time + "\" file=\"f-" + time + ".vtp\"/>\n";
+    };
     std::string const foot = "</Collection>\n</VTKFile>\n";
     auto series = lacuna::vtk_collection(path);
     series.begin();

@@ -38,10 +38,11 @@ struct one_disc {
 
 /// Numbers in all formats that the library writes.
 std::string all_written() {
-    std::string text = lacuna::lammps_dump_text(one_disc{}) + lacuna::to_text(1234567.25) + lacuna::formatted("%.3f", 1234.5) +
-                       lacuna::rate_text(12.5e6);
+    std::string text = lacuna::lammps_dump_text(one_disc{}) + lacuna::to_text(1234567.25) +
+                       lacuna::formatted("%.3f", 1234.5) + lacuna::rate_text(12.5e6);
     for (auto const& label : lacuna::tick_labels({0, 0.5, 1})) text += " " + label;
-    for (auto const& tick : lacuna::ticks_of({0.01, 100, "", lacuna::axis_scale::logarithmic})) text += " " + tick.label;
+    for (auto const& tick : lacuna::ticks_of({0.01, 100, "", lacuna::axis_scale::logarithmic}))
+        text += " " + tick.label;
     lacuna::save_vtk_series("locale_test.pvd", {{0.5, "a"}, {1234.5, "b"}});
     std::ifstream file("locale_test.pvd", std::ios::binary);
     text.append(std::istreambuf_iterator<char>(file), {});

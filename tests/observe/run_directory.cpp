@@ -21,7 +21,8 @@ using lacuna::earlier_results;
 
 std::vector<std::string> const known{"summary.json", "frame-#.vtp", "log-a"};
 
-std::unique_ptr<lacuna::run_directory> open_directory(std::string const& path, earlier_results earlier = earlier_results::refuse) {
+std::unique_ptr<lacuna::run_directory> open_directory(std::string const& path,
+                                                      earlier_results earlier = earlier_results::refuse) {
     return std::make_unique<lacuna::run_directory>(path, "output.directory", known, earlier);
 }
 std::string refusal(std::string const& path, earlier_results earlier = earlier_results::refuse) {
@@ -63,8 +64,8 @@ TEST_CASE("a directory has one owner, which is named, and none after that has en
     scratch_directory const dir;
     pid_t const owner = in_another_process([&] { return open_directory(dir.path.string()); });
     for (auto const earlier : {earlier_results::refuse, earlier_results::replace, earlier_results::keep})
-        CHECK_THAT(refusal(dir.path.string(), earlier), contains_text("output.directory = ") &&
-                                                            contains_text("in use by process " + std::to_string(owner)));
+        CHECK_THAT(refusal(dir.path.string(), earlier),
+                   contains_text("output.directory = ") && contains_text("in use by process " + std::to_string(owner)));
     // A killed owner leaves the file, but not the lock.
     end(owner);
     REQUIRE(std::filesystem::exists(dir.path / "lacuna.lock"));
@@ -143,12 +144,13 @@ TEST_CASE("the lock file shows whether its owner still runs", "[directory]") {
 
 TEST_CASE("results of an earlier run are refused, replaced or kept, other files stay", "[directory]") {
     scratch_directory const dir;
-    std::vector<std::string> const foreign{"frame-.vtp", "frame-1a.vtp", "frame-12.vtu", "xframe-12.vtp", "log-b", "summary.json.part.old",
-                                           "notes.txt.part", "other.7-1.part"};
+    std::vector<std::string> const foreign{"frame-.vtp", "frame-1a.vtp",          "frame-12.vtu",   "xframe-12.vtp",
+                                           "log-b",      "summary.json.part.old", "notes.txt.part", "other.7-1.part"};
     for (auto const& name : foreign) write(dir.file(name));
     for (char const* result : {"summary.json", "frame-000000000012.vtp", "log-a"}) {
         write(dir.file(result));
-        CHECK_THAT(refusal(dir.path.string()), contains_text(std::string("it holds ") + result) && contains_text("--force"));
+        CHECK_THAT(refusal(dir.path.string()),
+                   contains_text(std::string("it holds ") + result) && contains_text("--force"));
         CHECK(dir.entries() == foreign.size() + 1);
         open_directory(dir.path.string(), earlier_results::keep)->keep();
         CHECK(std::filesystem::exists(dir.file(result)));
@@ -185,7 +187,8 @@ TEST_CASE("directories that were created for nothing are removed again", "[direc
     REQUIRE(std::filesystem::is_directory(dir.path / "a/b/c"));
 }
 
-TEST_CASE("two writers of one file do not disturb each other, and the file of a killed one is overwritten", "[directory]") {
+TEST_CASE("two writers of one file do not disturb each other, and the file of a killed one is overwritten",
+          "[directory]") {
     scratch_directory const dir;
     std::string const path = dir.file("result");
     {

@@ -115,7 +115,8 @@ nlohmann::json write_spheres(std::string const& folder) {
 
 /// Arrays of no block, of one and of several blocks, full and partial ones; and a tetrahedron.
 void write_odd_sizes(std::string const& folder) {
-    for (std::size_t const count : {std::size_t(0), std::size_t(1), lacuna::vtk_zlib::block / 8, lacuna::vtk_zlib::block / 4 + 1}) {
+    for (std::size_t const count :
+         {std::size_t(0), std::size_t(1), lacuna::vtk_zlib::block / 8, lacuna::vtk_zlib::block / 4 + 1}) {
         lacuna::vtk_surface s;
         s.point_data = {{"number", 1, {}}};
         for (std::size_t k = 0; k < count; ++k) {

@@ -60,14 +60,16 @@ void check_three(lacuna::particle_list<Dim> const& list, std::size_t bonds) {
 }
 
 /// A LAMMPS data file of the sections given.
-std::string data_file(std::string const& title, std::string const& header, std::string const& atoms, std::string const& more = "") {
+std::string data_file(std::string const& title, std::string const& header, std::string const& atoms,
+                      std::string const& more = "") {
     return title + "\n\n" + header + "\nAtoms # sphere\n\n" + atoms + more;
 }
 
 /// A ring of three spheres through the sides of a box of length 3.
 std::string ring(std::string const& images) {
     return data_file("ring", "3 atoms\n3 bonds\n0 3 xlo xhi\n-1 1 ylo yhi\n-1 1 zlo zhi\n",
-                     "1 1 1 2500 0.5 0 0\n2 1 1 2500 1.5 0 0\n3 1 1 2500 2.5 0 0" + images + "\n", "\nBonds\n\n1 1 1 2\n2 1 2 3\n3 1 3 1\n");
+                     "1 1 1 2500 0.5 0 0\n2 1 1 2500 1.5 0 0\n3 1 1 2500 2.5 0 0" + images + "\n",
+                     "\nBonds\n\n1 1 1 2\n2 1 2 3\n3 1 3 1\n");
 }
 
 } // namespace
@@ -79,9 +81,11 @@ TEST_CASE("LAMMPS data files by other authors", "[files]") {
              {"cr.data", ""},
              {"sci.data", ""},
              {"inline.data", ""},
-             {"image.data", ":16: image flag = 1: must be 0: the box is read as non-periodic along x; reading it as periodic unwraps positions"},
+             {"image.data", ":16: image flag = 1: must be 0: the box is read as non-periodic along x; reading it as "
+                            "periodic unwraps positions"},
              {"bare.data", ":12: Atoms = \"\": must be followed by \"# sphere\" or \"# bpm/sphere\""},
-             {"hybrid.data", ":12: Atoms = \"hybrid sphere bond\": must be followed by \"# sphere\" or \"# bpm/sphere\""},
+             {"hybrid.data",
+              ":12: Atoms = \"hybrid sphere bond\": must be followed by \"# sphere\" or \"# bpm/sphere\""},
              {"triclinic.data", ":11: xy xz yz = 0.5: must be 0: boxes here have right angles"},
              {"units_lj.data", ":1: units = \"lj\": must be si, cgs, micro or nano: lj units have no dimensions"},
              {"twice.data", ":21: Bonds = 2 1: must be a pair that has no bond yet"},
@@ -91,7 +95,8 @@ TEST_CASE("LAMMPS data files by other authors", "[files]") {
              {"noeol.data", ""},
              {"spheretwocols.data", ":14: Atoms = 8 words: must be 7 or 10"},
              {"bpmwithsphere.data", ":14: Atoms = 7 words: must be 8 or 11"},
-             {"notitle.data", ":1: title = \"3 atoms\": must be a title: the first line of a data file is not part of its header"},
+             {"notitle.data",
+              ":1: title = \"3 atoms\": must be a title: the first line of a data file is not part of its header"},
              {"capsules.data", ":18 = \"Capsules\": must be a section of spheres"},
              {"extra.data", ""},
              {"coeffs.data", ""},
@@ -105,7 +110,8 @@ TEST_CASE("LAMMPS data files by other authors", "[files]") {
              {"nonascii_id.data", ":14: id = \"\xEF\xBC\x91\": must be a number; it has the character U+FF11"},
              {"typegap.data", ":15: atom type = 9: must be a whole number from 1 to 1"},
              {"outsidebox.data", ":16: position = 99.5: must be within the box, from 0 to 4 along x"},
-             {"hybrid_bpm_first.data", ":12: Atoms = \"bpm/sphere dipole\": must be followed by \"# sphere\" or \"# bpm/sphere\""},
+             {"hybrid_bpm_first.data",
+              ":12: Atoms = \"bpm/sphere dipole\": must be followed by \"# sphere\" or \"# bpm/sphere\""},
              {"commenttitle.data", ""},
              {"nul.data", ":14 = a NUL byte: must be text"}}) {
         INFO(name);
@@ -148,10 +154,13 @@ TEST_CASE("CSV files of other programs", "[files]") {
              {"innerquote.csv", 0, ":2 = \"\"0\": must be a cell whose quotes are closed"},
              {"leadblank.csv", 2, ""},
              {"3din2d.csv", 1, ""},
-             {"dup.csv", 0, ":4: position = that of line 3: must be another: two particles cannot have the same position"},
+             {"dup.csv", 0,
+              ":4: position = that of line 3: must be another: two particles cannot have the same position"},
              {"nbsp.csv", 0, ":2: radius = \"0.5\xC2\xA0\": must be a number; it has a no-break space, U+00A0"},
              {"thousand.csv", 0, ":2: radius = \"1'000.5\": must be a number without marks between thousands"},
-             {"minus.csv", 0, ":3: position.x = \"\xE2\x88\x92" "1\": must be a number; it has a minus sign that is no hyphen, U+2212"}}) {
+             {"minus.csv", 0,
+              ":3: position.x = \"\xE2\x88\x92" "1\": must be a number; it has a minus sign that is no "
+              "hyphen, U+2212"}}) {
         INFO(name);
         std::string const text = file(name);
         if (!refusal.empty()) {
@@ -174,19 +183,26 @@ TEST_CASE("LAMMPS's units are converted to SI to the nearest numbers", "[files]"
         std::string name;
         double length, density, speed, spin;
     };
-    // From LAMMPS's page on its command units: cm, g, s; micrometre, picogram, microsecond; nanometre, attogram, nanosecond.
+    // From LAMMPS's page on its command units: cm, g, s; micrometre, picogram, microsecond; nanometre, attogram,
+    // nanosecond.
     for (unit const& u : {unit{"si", 3.5, 0.0011, 2.5, 0.75}, unit{"cgs", 3.5e-2, 1.1, 2.5e-2, 0.75},
                           unit{"micro", 3.5e-6, 1.1, 2.5, 0.75e6}, unit{"nano", 3.5e-9, 1100, 2.5, 0.75e9}})
-        for (std::string const title : {"LAMMPS data file via write_data, version 29 Aug 2024, timestep = 100, units = ", "# Units: ", "grains (units "}) {
-            auto const list = parse_lammps_data<3>(data_file(title + u.name, "1 atoms\n-10 10 xlo xhi\n", "1 1 7 0.0011 3.5 0 0 0 0 0\n",
-                                                             "\nVelocities\n\n1 2.5 0 0 0 0 0.75\n"), "f");
+        for (std::string const title :
+             {"LAMMPS data file via write_data, version 29 Aug 2024, timestep = 100, units = ", "# Units: ",
+              "grains (units "}) {
+            auto const list =
+                parse_lammps_data<3>(data_file(title + u.name, "1 atoms\n-10 10 xlo xhi\n",
+                                               "1 1 7 0.0011 3.5 0 0 0 0 0\n", "\nVelocities\n\n1 2.5 0 0 0 0 0.75\n"),
+                                     "f");
             REQUIRE(list.packing.position[0][0] == u.length);
             REQUIRE(list.packing.radius[0] == u.length);
             REQUIRE_THAT(list.packing.density[0], WithinRel(u.density, 1e-15));
             REQUIRE(list.velocity[0][0] == u.speed);
             REQUIRE(list.spin[0][2] == u.spin);
         }
-    auto const with = [](std::string const& title) { return why([&] { parse_lammps_data<3>(data_file(title, "1 atoms\n", "1 1 1 1 0 0 0\n"), "f"); }); };
+    auto const with = [](std::string const& title) {
+        return why([&] { parse_lammps_data<3>(data_file(title, "1 atoms\n", "1 1 1 1 0 0 0\n"), "f"); });
+    };
     REQUIRE(with("in SI units") == "accepted");
     REQUIRE(with("a unit cell") == "accepted");
     for (std::string const bad : {"real", "metal", "electron", "mm"})
@@ -195,8 +211,9 @@ TEST_CASE("LAMMPS's units are converted to SI to the nearest numbers", "[files]"
 }
 
 TEST_CASE("a periodic LAMMPS box: image flags, bonds through its sides, its period", "[files]") {
-    std::string const through = "f:19: Bonds = 3 1: must be a pair that is nearest within the box: through its sides they are 1 m apart, "
-                                "within it 2 m; such a box is periodic, but is read as non-periodic";
+    std::string const through =
+        "f:19: Bonds = 3 1: must be a pair that is nearest within the box: through its sides they are 1 m apart, "
+        "within it 2 m; such a box is periodic, but is read as non-periodic";
     REQUIRE(why([&] { parse_lammps_data<3>(ring(""), "f"); }) == through);
     REQUIRE(why([&] { parse_lammps_data<2>(ring(" 0 0 0"), "f"); }) == through);
     auto const closed = parse_lammps_data<2>(ring(""), "f", {true, false});
@@ -209,9 +226,13 @@ TEST_CASE("a periodic LAMMPS box: image flags, bonds through its sides, its peri
     REQUIRE(micro.packing.position[2][0] == 5.5e-6);
     REQUIRE(why([] { parse_lammps_data<2>(replaced(ring(""), "0 3 xlo xhi\n", ""), "f", {true, false}); }) ==
             "f:10: xlo xhi = (missing): must be given in the header: along this axis the box is periodic");
-    REQUIRE(why([] { parse_lammps_data<2>(ring(" 0 1 0"), "f", {true, false}); }) ==
-            "f:13: image flag = 1: must be 0: the box is read as non-periodic along y; reading it as periodic unwraps positions");
-    REQUIRE(why([] { parse_lammps_data<2>(ring(" 0 0 1"), "f", {true, true}); }) == "f:13: image flag = 1: must be 0 in the plane");
+    REQUIRE(why([] {
+                parse_lammps_data<2>(ring(" 0 1 0"), "f", {true, false});
+            }) == "f:13: image flag = 1: must be 0: the box is read as non-periodic along y; reading it as periodic "
+                  "unwraps positions");
+    REQUIRE(why([] {
+                parse_lammps_data<2>(ring(" 0 0 1"), "f", {true, true});
+            }) == "f:13: image flag = 1: must be 0 in the plane");
 
     // In a box just large enough for the centres of two touching spheres, a bond does not cross its sides.
     std::string const tight = data_file("tight", "2 atoms\n1 bonds\n0 1 xlo xhi\n0 0.1 ylo yhi\n0 0.1 zlo zhi\n",
@@ -224,25 +245,31 @@ TEST_CASE("a periodic LAMMPS box: image flags, bonds through its sides, its peri
 }
 
 TEST_CASE("types of bonds are read, and give each bond the values of its type", "[files]") {
-    std::string const text = data_file("t", "3 atoms\n2 bonds\n1 atom types\n4 bond types\n", "1 1 1 1 0 0 0\n2 1 1 1 1 0 0\n3 1 1 1 2 0 0\n",
+    std::string const text = data_file("t", "3 atoms\n2 bonds\n1 atom types\n4 bond types\n",
+                                       "1 1 1 1 0 0 0\n2 1 1 1 1 0 0\n3 1 1 1 2 0 0\n",
                                        "\nBond Type Labels\n\n4 glue\n\nBonds\n\n1 glue 3 2\n2 2 1 2\n");
     auto const list = parse_lammps_data<2>(text, "f");
     REQUIRE(list.packing.bond_type == std::vector<int>{3, 1});
     REQUIRE(lacuna::by_bond_type(list.packing, std::vector<char>{'a', 'b', 'c', 'd'}) == std::vector<char>{'d', 'b'});
-    REQUIRE(why([&] { lacuna::by_bond_type(list.packing, std::vector<char>{'a', 'b'}); }) == "packing.bond_type = 3: must be from 0 to 1");
-    REQUIRE(why([&] { parse_lammps_data<2>(replaced(text, "2 2 1 2", "1 2 1 2"), "f"); }) == "f:21: id = 1: must be given once");
+    REQUIRE(why([&] {
+                lacuna::by_bond_type(list.packing, std::vector<char>{'a', 'b'});
+            }) == "packing.bond_type = 3: must be from 0 to 1");
+    REQUIRE(why([&] { parse_lammps_data<2>(replaced(text, "2 2 1 2", "1 2 1 2"), "f"); }) ==
+            "f:21: id = 1: must be given once");
 }
 
 TEST_CASE("lines of a LAMMPS header that are wrong, or have no meaning for spheres", "[files]") {
     auto const with = [](std::string const& line) {
         return why([&] { parse_lammps_data<3>(data_file("t", "1 atoms\n" + line + "\n", "1 1 1 1 0 0 0\n"), "f"); });
     };
-    for (std::string const line : {"0 bonds", "0 angles", "3 angle types", "0 0 0 xy xz yz", "1 atom types # grains", "", "# one"})
+    for (std::string const line :
+         {"0 bonds", "0 angles", "3 angle types", "0 0 0 xy xz yz", "1 atom types # grains", "", "# one"})
         REQUIRE(with(line) == "accepted");
     REQUIRE(with("2 atoms") == "f:4 = \"atoms\": must be given once");
     REQUIRE(with("2 angles") == "f:4: angles = 2: must be 0: particles here are spheres with bonds");
     REQUIRE(with("2 bodies") == "f:4: bodies = 2: must be 0: particles here are spheres with bonds");
-    REQUIRE(with("2 atom type") == "f:4 = \"atom type\": must be a line of a header, such as \"12 atoms\" (did you mean \"atom types\"?)");
+    REQUIRE(with("2 atom type") ==
+            "f:4 = \"atom type\": must be a line of a header, such as \"12 atoms\" (did you mean \"atom types\"?)");
     REQUIRE(with("1 0 0 avec") == "f:4 = \"avec\": must be xlo xhi and so on: boxes here have right angles");
     REQUIRE(with("1 -1 xlo xhi") == "f:4: xlo xhi = 1 -1: must be a lower and a higher bound");
     REQUIRE(with("1 xlo xhi") == "f:4: xlo xhi = 1 numbers: must be 2");
@@ -250,8 +277,9 @@ TEST_CASE("lines of a LAMMPS header that are wrong, or have no meaning for spher
     REQUIRE(why([] { parse_lammps_data<3>("t\n\n0 atoms\n", "f"); }) == "f: atoms = 0: must be at least 1");
     REQUIRE(why([] { parse_lammps_data<3>(data_file("t", "2 atoms\n", "1 1 1 1 0 0 0\n2 1 2 1 0 0 0\n"), "f"); }) ==
             "f:8: position = that of line 7: must be another: two particles cannot have the same position");
-    REQUIRE(why([] { parse_lammps_data<3>(data_file("t", "1 atoms\n", "1 1 1 1 0 0 0\n", "\nMasses\n\n1 0\n"), "f"); }) ==
-            "f:11: mass = 0: must be > 0");
+    REQUIRE(why([] {
+                parse_lammps_data<3>(data_file("t", "1 atoms\n", "1 1 1 1 0 0 0\n", "\nMasses\n\n1 0\n"), "f");
+            }) == "f:11: mass = 0: must be > 0");
 }
 
 TEST_CASE("columns of other programs, by any of their usual names", "[files]") {
@@ -267,40 +295,50 @@ TEST_CASE("columns of other programs, by any of their usual names", "[files]") {
         REQUIRE(list.packing.density == std::vector<double>{1200});
     };
     for (std::string const heading :
-         {"x,y,z,vx,vy,vz,wx,wy,wz,r,matId,rho", "Points:0,Points:1,Points:2,velocity:0,velocity:1,velocity:2,spin:0,spin:1,spin:2,radius,material,density",
-          "\"Points_0\",\"Points_1\",\"Points_2\",\"vel_x\",\"vel_y\",\"vel_z\",\"omega_0\",\"omega_1\",\"omega_2\",\"Radius\",\"mat\",\"DENSITY\"",
-          "pos x [m],pos y [m],pos z (m),v.x [m/s],v.y,v.z,spin.x [rad/s],spin.y,spin.z (1/s),rad (m),material [-],density [kg/m\u00b3]"}) {
+         {"x,y,z,vx,vy,vz,wx,wy,wz,r,matId,rho",
+          "Points:0,Points:1,Points:2,velocity:0,velocity:1,velocity:2,spin:0,spin:1,spin:2,radius,material,density",
+          "\"Points_0\",\"Points_1\",\"Points_2\",\"vel_x\",\"vel_y\",\"vel_z\",\"omega_0\",\"omega_1\",\"omega_2\","
+          "\"Radius\",\"mat\",\"DENSITY\"",
+          "pos x [m],pos y [m],pos z (m),v.x [m/s],v.y,v.z,spin.x [rad/s],spin.y,spin.z (1/s),rad (m),material "
+          "[-],density [kg/m\u00b3]"}) {
         INFO(heading);
         check(parse_particle_csv<3>(heading + "\n1,2,3,4,5,6,7,8,9,0.25,3,1200\n", "f"));
-        check(parse_particle_csv<3>("# " + heading + "\r\n\r\n# more\r\n1,2,3,4,5,6,7,8,9,0.25,3,1200\r\n,,,,,,,,,,,\r\n", "f"));
+        check(parse_particle_csv<3>(
+            "# " + heading + "\r\n\r\n# more\r\n1,2,3,4,5,6,7,8,9,0.25,3,1200\r\n,,,,,,,,,,,\r\n", "f"));
     }
     check(parse_particle_csv<3>("x;y;z;vx;vy;vz;wx;wy;wz;d;mat;rho\n1;2;3;4;5;6;7;8;9;0,5;3;1200,0\n", "f"));
     REQUIRE(parse_particle_csv<3>("#format x_y_z_r_matId\n1\t2\t3\t0.5\t4\n", "f").packing.material[0] == 4);
     REQUIRE(parse_particle_csv<3>("# made by hand\n# x y z r\n1   2 3\t0.5\n", "f").packing.position[0][2] == 3);
     auto const plane = parse_particle_csv<2>("x,y,z,vz,spin.x,spin.z,r\n1,2,0,0,0,7,0.5\n", "f");
     REQUIRE(plane.spin[0][0] == 7);
-    REQUIRE(why([] { parse_particle_csv<2>("x,y,z,r\n1,2,-3,1\n", "f"); }) == "f:2: position.z = -3: must be 0 in the plane");
-    REQUIRE(why([] { parse_particle_csv<2>("x,y,vz,r\n1,2,3,1\n", "f"); }) == "f:2: velocity.z = 3: must be 0 in the plane");
+    REQUIRE(why([] { parse_particle_csv<2>("x,y,z,r\n1,2,-3,1\n", "f"); }) ==
+            "f:2: position.z = -3: must be 0 in the plane");
+    REQUIRE(why([] { parse_particle_csv<2>("x,y,vz,r\n1,2,3,1\n", "f"); }) ==
+            "f:2: velocity.z = 3: must be 0 in the plane");
     REQUIRE(parse_particle_csv<2>("x,y,r\n0,0,1\n", "f", {"bone"}).packing.material[0] == 0);
 }
 
 TEST_CASE("ambiguous CSV files are refused", "[files]") {
-    for (auto const& [text, message] : {
-             std::pair<std::string, std::string>{"radius [mm],x,y\n1,0,0\n", "f:1 = \"radius [mm]\": must be in m"},
-             {"radius,x,y,vx (km/h)\n1,0,0,1\n", "f:1 = \"vx (km/h)\": must be in m/s"},
-             {"r;x;y\n1,000;0;0\n", "f:2 = \"1,000\": must be a number without a comma, which may be a decimal comma or separate thousands"},
-             {"r;x;y\n1,5;0.5;0\n", "f:2: radius = \"1,5\": must be a number with a decimal point, without commas"},
-             {"r;x;y\n1.000,5;0;0\n", "f:2: radius = \"1.000,5\": must be a number with a decimal point, without commas"},
-             {"r;x;y\n1,5;1,000,000;0\n", "f:2: position.x = \"1,000,000\": must be a number with a decimal point, without commas"},
-             {"r,x,y\n0,5,1,5,2,5\n", "f:2 = 6 cells: must be as many as the heading has, 3; decimal commas need cells in quotes"},
-             {"r,x,y\n1;0;0\n", "f:2 = 1 cells: must be as many as the heading has, 3, separated by commas as there"},
-             {"0,0,0,1\n", "f:1 = \"0,0,0,1\": must be a heading that names the columns, such as \"x,y,z,r\""},
-             {"# my packing\n0 0 1\n", "f:2 = \"0 0 1\": must be a heading that names the columns, such as \"x,y,z,r\""},
-             {"r,d,x,y\n1,2,0,0\n", "f:1 = \"d\": must be a column that is given once"},
-             {"x,position.x,y,r\n1,1,0,1\n", "f:1 = \"position.x\": must be a column that is given once"},
-             {"r,x,y\n1,\"0\"5,0\n", "f:2 = \"\"0\"5,0\": must be a cell that ends with its quotes"},
-             {"r,x,y,rho\n1,0,0,0\n", "f:2: density = 0: must be > 0"},
-             {"r,x,y,material\n1,0,0,0\n2,0,0,0\n", "f:3: position = that of line 2: must be another: two particles cannot have the same position"}})
+    for (auto const& [text, message] :
+         {std::pair<std::string, std::string>{"radius [mm],x,y\n1,0,0\n", "f:1 = \"radius [mm]\": must be in m"},
+          {"radius,x,y,vx (km/h)\n1,0,0,1\n", "f:1 = \"vx (km/h)\": must be in m/s"},
+          {"r;x;y\n1,000;0;0\n",
+           "f:2 = \"1,000\": must be a number without a comma, which may be a decimal comma or separate thousands"},
+          {"r;x;y\n1,5;0.5;0\n", "f:2: radius = \"1,5\": must be a number with a decimal point, without commas"},
+          {"r;x;y\n1.000,5;0;0\n", "f:2: radius = \"1.000,5\": must be a number with a decimal point, without commas"},
+          {"r;x;y\n1,5;1,000,000;0\n",
+           "f:2: position.x = \"1,000,000\": must be a number with a decimal point, without commas"},
+          {"r,x,y\n0,5,1,5,2,5\n",
+           "f:2 = 6 cells: must be as many as the heading has, 3; decimal commas need cells in quotes"},
+          {"r,x,y\n1;0;0\n", "f:2 = 1 cells: must be as many as the heading has, 3, separated by commas as there"},
+          {"0,0,0,1\n", "f:1 = \"0,0,0,1\": must be a heading that names the columns, such as \"x,y,z,r\""},
+          {"# my packing\n0 0 1\n", "f:2 = \"0 0 1\": must be a heading that names the columns, such as \"x,y,z,r\""},
+          {"r,d,x,y\n1,2,0,0\n", "f:1 = \"d\": must be a column that is given once"},
+          {"x,position.x,y,r\n1,1,0,1\n", "f:1 = \"position.x\": must be a column that is given once"},
+          {"r,x,y\n1,\"0\"5,0\n", "f:2 = \"\"0\"5,0\": must be a cell that ends with its quotes"},
+          {"r,x,y,rho\n1,0,0,0\n", "f:2: density = 0: must be > 0"},
+          {"r,x,y,material\n1,0,0,0\n2,0,0,0\n",
+           "f:3: position = that of line 2: must be another: two particles cannot have the same position"}})
         REQUIRE(why([&, &text = text] { parse_particle_csv<2>(text, "f"); }) == message);
     REQUIRE(why([] { parse_particle_csv<2>("r,x,y\n1,0,0\n", "f", {"bone", "gut"}); }) ==
             "f:1: material = (missing): must be given: there are 2 materials");

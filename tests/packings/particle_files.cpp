@@ -105,7 +105,8 @@ TEST_CASE("bad lines of a CSV file are refused by file, line, column, value and 
     for (auto const& [text, message] : {
              std::pair<std::string, std::string>{"", "f = (empty): must be a heading that names the columns, and rows"},
              {"radius,material,position.x\n", "f:1: position.y = (missing): must be given"},
-             {"radius,materiel,position.x,position.y\n", "f:1 = \"materiel\": must be a known column (did you mean \"material\"?)"},
+             {"radius,materiel,position.x,position.y\n",
+              "f:1 = \"materiel\": must be a known column (did you mean \"material\"?)"},
              {"radius,radius,position.x,position.y\n", "f:1 = \"radius\": must be a column that is given once"},
              {head + "1,0,0\n", "f:2 = 3 cells: must be as many as the heading has, 4"},
              {head + "1,0,0,0\n\n1,0,1,x\n", "f:4: position.y = \"x\": must be a number"},
@@ -138,30 +139,39 @@ TEST_CASE("spheres of a LAMMPS data file", "[files]") {
     REQUIRE(list.velocity[0][0] == 0);
     REQUIRE(list.packing.bonds == std::vector<std::array<std::int32_t, 2>>{{1, 0}});
 
-    auto const flat = lacuna::parse_lammps_data<2>("discs\n\n1 atoms\n\nAtoms # sphere\n\n1 1 2 1000 3 4 0\n\nVelocities\n\n"
-                                                   "1 5 6 0 0 0 7\n", "f");
+    auto const flat =
+        lacuna::parse_lammps_data<2>("discs\n\n1 atoms\n\nAtoms # sphere\n\n1 1 2 1000 3 4 0\n\nVelocities\n\n"
+                                     "1 5 6 0 0 0 7\n",
+                                     "f");
     REQUIRE(flat.packing.position[0][1] == 4);
     REQUIRE(flat.velocity[0][1] == 6);
     REQUIRE(flat.spin[0][0] == 7);
 }
 
 TEST_CASE("bad lines of a LAMMPS data file are refused by file, line, field, value and rule", "[files]") {
-    for (auto const& [from, to, message] : {
-             std::array<std::string, 3>{"2 1 1 1.0 1000", "2 1 1 -1.0 1000", "f:19: diameter = -1.0: must be > 0: particles cannot be points"},
-             {"2 1 1 1.0 1000", "2 1 1 1.0 0", "f:19: density = 0: must be > 0"},
-             {"2 1 1 1.0", "2 1 0 1.0", "f:19: atom type = 0: must be a whole number from 1 to 2"},
-             {"2 1 1 1.0", "7 1 1 1.0", "f:19: id = 7: must be given once"},
-             {"1000 0 0 0 0 0 0", "1000 0 0 0 0 1 0", "f:19: image flag = 1: must be 0: the box is read as non-periodic along y; reading it as periodic unwraps positions"},
-             {"1000.5 1.25 0 0", "1000.5 1.25 0", "f:20: Atoms = 7 words: must be 8 or 11"},
-             {"1000.5 1.25 0 0", "1000.5 1.25 zero 0", "f:20: position = \"zero\": must be a number"},
-             {"3 0.1 0.2", "4 0.1 0.2", "f:24: id = 4: must be an atom of the section Atoms above"},
-             {"1 1 3 2", "1 1 3 9", "f:28: atom = 9: must be an atom of the section Atoms above"},
-             {"1 1 3 2", "1 1 3 3", "f:28: atom = 3: must be another atom than the first"},
-             {"1 bonds", "2 bonds", "f: bonds = 1: must be as many as the header says, 2"},
-             {"3 atoms", "4 atoms", "f: atoms = 3: must be as many as the header says, 4"},
-             {"# bpm/sphere", "# atomic", "f:16: Atoms = \"atomic\": must be followed by \"# sphere\" or \"# bpm/sphere\""},
-             {"Velocities", "Velocites", "f:22 = \"Velocites\": must be a section of spheres (did you mean \"Velocities\"?)"}})
-        REQUIRE(why([&, &from = from, &to = to] { lacuna::parse_lammps_data<3>(changed(spheres, from, to), "f"); }) == message);
+    for (auto const& [from, to, message] :
+         {std::array<std::string, 3>{"2 1 1 1.0 1000", "2 1 1 -1.0 1000",
+                                     "f:19: diameter = -1.0: must be > 0: particles cannot be points"},
+          {"2 1 1 1.0 1000", "2 1 1 1.0 0", "f:19: density = 0: must be > 0"},
+          {"2 1 1 1.0", "2 1 0 1.0", "f:19: atom type = 0: must be a whole number from 1 to 2"},
+          {"2 1 1 1.0", "7 1 1 1.0", "f:19: id = 7: must be given once"},
+          {"1000 0 0 0 0 0 0", "1000 0 0 0 0 1 0",
+           "f:19: image flag = 1: must be 0: the box is read as non-periodic along y; reading it as periodic unwraps "
+           "positions"},
+          {"1000.5 1.25 0 0", "1000.5 1.25 0", "f:20: Atoms = 7 words: must be 8 or 11"},
+          {"1000.5 1.25 0 0", "1000.5 1.25 zero 0", "f:20: position = \"zero\": must be a number"},
+          {"3 0.1 0.2", "4 0.1 0.2", "f:24: id = 4: must be an atom of the section Atoms above"},
+          {"1 1 3 2", "1 1 3 9", "f:28: atom = 9: must be an atom of the section Atoms above"},
+          {"1 1 3 2", "1 1 3 3", "f:28: atom = 3: must be another atom than the first"},
+          {"1 bonds", "2 bonds", "f: bonds = 1: must be as many as the header says, 2"},
+          {"3 atoms", "4 atoms", "f: atoms = 3: must be as many as the header says, 4"},
+          {"# bpm/sphere", "# atomic",
+           "f:16: Atoms = \"atomic\": must be followed by \"# sphere\" or \"# bpm/sphere\""},
+          {"Velocities", "Velocites",
+           "f:22 = \"Velocites\": must be a section of spheres (did you mean \"Velocities\"?)"}})
+        REQUIRE(why([&, &from = from, &to = to] { lacuna::parse_lammps_data<3>(changed(spheres, from, to), "f"); }) ==
+                message);
     REQUIRE(why([] { lacuna::parse_lammps_data<2>(spheres, "f"); }) == "f:18: z = -0.125: must be 0 in the plane");
-    REQUIRE(why([] { lacuna::parse_lammps_data<3>("a title\n", "f"); }) == "f: atoms = 0: must be announced in the header");
+    REQUIRE(why([] { lacuna::parse_lammps_data<3>("a title\n", "f"); }) ==
+            "f: atoms = 0: must be announced in the header");
 }

@@ -89,7 +89,8 @@ TEST_CASE("strip order keeps the neighbours of a particle within two strips", "[
 
 TEST_CASE("strip order does not depend on the order of the input, however close points are", "[particles]") {
     // Relative to the lowest coordinate, -1e-30 and 0 round to the same number.
-    std::vector<vec<double, 2>> const points{{0, 0}, {3, 0}, {0.5, 0.75}, {-0.5, 0.75}, {-1, 0}, {-1e-30, 0}, {0.25, -1e-30}, {0.5, -0.75}};
+    std::vector<vec<double, 2>> const points{{0, 0},  {3, 0},      {0.5, 0.75},    {-0.5, 0.75},
+                                             {-1, 0}, {-1e-30, 0}, {0.25, -1e-30}, {0.5, -0.75}};
     auto reversed = points;
     std::reverse(reversed.begin(), reversed.end());
     auto const order = lacuna::strip_order(lacuna::view_points(points));

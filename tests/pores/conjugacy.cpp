@@ -26,8 +26,8 @@ std::set<std::size_t> rim_of(pore_network<double, 2> const& net) {
 
 } // namespace
 
-TEMPLATE_TEST_CASE("a uniform pressure between sealed discs stays, and exerts no force on inner ones", "", explicit_flow,
-                   implicit_flow) {
+TEMPLATE_TEST_CASE("a uniform pressure between sealed discs stays, and exerts no force on inner ones", "",
+                   explicit_flow, implicit_flow) {
     using solver = typename TestType::template solver<double, 2>;
     // Discs of equal and unequal radii, some touching, some apart or overlapping.
     bool const equal = GENERATE(true, false);

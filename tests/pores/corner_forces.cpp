@@ -32,7 +32,8 @@ auto expected(Solver const& flow, Body const& b) {
     for (std::size_t k = 0; k < net.pores(); ++k) {
         if (net.volume[k] <= 1.000001e-3 * net.size[k]) continue;
         auto const push = flow.pore_tractions(k, b.points(), b.r.data());
-        for (std::size_t c = 0; c < net.corner.size(); ++c) sum[std::size_t(net.corner[c][k])] += push[c] * net.pressure[k];
+        for (std::size_t c = 0; c < net.corner.size(); ++c)
+            sum[std::size_t(net.corner[c][k])] += push[c] * net.pressure[k];
     }
     return sum;
 }
@@ -69,7 +70,8 @@ void compare(Body b, double dt) {
         for (int lane = 0; lane < 4; ++lane) {
             REQUIRE(of_one.at(records * i, lane) == of_two.at(records * i, lane));
             REQUIRE(of_one.at(records * i, lane) == of_kept.at(records * i, lane));
-            REQUIRE(std::fabs(of_one.at(records * i, lane) - (lane < sum[i].size() ? sum[i][lane] : 0.0)) <= 1e-12 * largest);
+            REQUIRE(std::fabs(of_one.at(records * i, lane) - (lane < sum[i].size() ? sum[i][lane] : 0.0)) <=
+                    1e-12 * largest);
         }
 }
 
@@ -157,7 +159,8 @@ TEST_CASE("throats of a pore: first those for which it is on side 1, both parts 
     table.build(ends, 3);
     REQUIRE(table.row() == 4);
     using entry = std::pair<std::size_t, int>;
-    std::vector<std::vector<entry>> const wanted{{{0, 1}, {2, 0}, {4, 0}}, {{2, 1}, {3, 1}, {1, 0}}, {{1, 1}, {0, 0}, {3, 0}, {5, 0}}};
+    std::vector<std::vector<entry>> const wanted{
+        {{0, 1}, {2, 0}, {4, 0}}, {{2, 1}, {3, 1}, {1, 0}}, {{1, 1}, {0, 0}, {3, 0}, {5, 0}}};
     for (std::size_t p = 0; p < 3; ++p) {
         std::vector<entry> seen;
         table.for_each(p, [&](std::size_t t, int side) { seen.emplace_back(t, side); });
@@ -171,7 +174,9 @@ TEST_CASE("throats of a pore: first those for which it is on side 1, both parts 
 TEST_CASE("a step is the same if throats are not in the order of their pores") {
     auto const b = bodies::scattered(3, 44, 40, 0.7, 0.95);
     auto net = b.network();
-    auto const reverse_interior = [&](auto& column) { std::reverse(column.begin(), column.begin() + std::ptrdiff_t(net.interior_throats)); };
+    auto const reverse_interior = [&](auto& column) {
+        std::reverse(column.begin(), column.begin() + std::ptrdiff_t(net.interior_throats));
+    };
     for (auto& column : net.throat_particle) reverse_interior(column);
     for (auto& column : net.throat_pore) reverse_interior(column);
     reverse_interior(net.length);

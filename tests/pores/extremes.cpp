@@ -91,7 +91,8 @@ std::vector<std::array<std::int32_t, std::size_t(Dim) + 1>> try_all(body<Dim> co
             row[a] = number(b.x[std::size_t(i)][int(a)]) - number(b.x[std::size_t(from)][int(a)]);
             row[dim] += row[a] * row[a];
         }
-        row[dim] += number(b.r[std::size_t(from)]) * b.r[std::size_t(from)] - number(b.r[std::size_t(i)]) * b.r[std::size_t(i)];
+        row[dim] +=
+            number(b.r[std::size_t(from)]) * b.r[std::size_t(from)] - number(b.r[std::size_t(i)]) * b.r[std::size_t(i)];
         return row;
     };
     std::vector<simplex> found;
@@ -242,10 +243,14 @@ TEST_CASE("radii from 1 to 1e-4, small ones upon large ones: the same simplices 
                 spheres.add(y, 1);
                 for (int j = 0; j < 5; ++j) {
                     double const small = (0.3 + uniform(engine)) / ratio;
-                    discs.add(x + vec<double, 2>{1 + 1 / ratio + 3 / ratio * uniform(engine), 3 / ratio * uniform(engine)}, small);
+                    discs.add(
+                        x + vec<double, 2>{1 + 1 / ratio + 3 / ratio * uniform(engine), 3 / ratio * uniform(engine)},
+                        small);
                     if (j < 2 + k % 3)
-                        spheres.add(y + vec<double, 3>{3 / ratio * uniform(engine), 1 + 1 / ratio + 3 / ratio * uniform(engine),
-                                                       3 / ratio * uniform(engine)}, small);
+                        spheres.add(y + vec<double, 3>{3 / ratio * uniform(engine),
+                                                       1 + 1 / ratio + 3 / ratio * uniform(engine),
+                                                       3 / ratio * uniform(engine)},
+                                    small);
                 }
             }
             REQUIRE(sorted_corners(discs.mesh()) == try_all(discs));
@@ -268,7 +273,8 @@ TEST_CASE("signs are exact where rounding would decide") {
     double const u = 0x1p-53;
     for (int i = 0; i < 40; ++i)
         for (int j = 0; j < 40; ++j) {
-            detail::weighted_sites<2> const sites{{{0.5 + i * u, 0.5 + j * u}, {12, 12}, {24, 24}}, {0, 0, 0}, {0, 0, 0}};
+            detail::weighted_sites<2> const sites{
+                {{0.5 + i * u, 0.5 + j * u}, {12, 12}, {24, 24}}, {0, 0, 0}, {0, 0, 0}};
             double const sign = detail::exact_signs<2>(sites).orientation({0, 1, 2});
             double const expected = (0.5 + j * u) - (0.5 + i * u);
             REQUIRE((sign > 0) == (expected > 0));
@@ -407,8 +413,8 @@ TEST_CASE("a refusal of particles without pores names the reason and the particl
     REQUIRE_THROWS_WITH(refuse(b), contains_text("number of pores = 0: must be at least 1") &&
                                        contains_text("3 particles around it, and there are 2"));
     b.add({2, 1});
-    REQUIRE_THROWS_WITH(refuse(b), contains_text("particle 100 at (0, 1) m") && contains_text("particle 102 at (2, 1) m") &&
-                                       contains_text("on one line"));
+    REQUIRE_THROWS_WITH(refuse(b), contains_text("particle 100 at (0, 1) m") &&
+                                       contains_text("particle 102 at (2, 1) m") && contains_text("on one line"));
     b.add({0, 90});
     REQUIRE_THROWS_WITH(refuse(b), contains_text("too far from each other"));
     body<3> c;

@@ -182,7 +182,8 @@ TEST_CASE("as many substeps as are safe") {
     REQUIRE(growth(bare_solver(p, net), dt, 10) == growth(safe, dt, 10));
     auto far = safe;
     REQUIRE_THROWS_AS(far.advance(1e6 * dt), std::invalid_argument); // names the step and its limit
-    REQUIRE_THROWS_WITH(far.advance(1e6 * dt), contains_text("time_step = ") && contains_text("implicit flow needs one"));
+    REQUIRE_THROWS_WITH(far.advance(1e6 * dt),
+                        contains_text("time_step = ") && contains_text("implicit flow needs one"));
 
     p.substeps = -1;
     REQUIRE_THROWS_WITH(p.validate("flow"), contains_text("flow.substeps = -1: must be from 0"));

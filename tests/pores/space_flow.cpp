@@ -242,8 +242,8 @@ TEST_CASE("a step of facet throats follows its formulas throat by throat and por
         REQUIRE_THAT(norm(force[k] - expected[k]), WithinAbs(0, 1e-10 * (1 + norm(expected[k]))));
 }
 
-TEMPLATE_TEST_CASE("in space mass is conserved, and the volumes of sources add up", "", explicit_solver, implicit_solver,
-                   section_solver) {
+TEMPLATE_TEST_CASE("in space mass is conserved, and the volumes of sources add up", "", explicit_solver,
+                   implicit_solver, section_solver) {
     auto const rest = bodies::scattered_spheres(45, 4, 0.6, 0.95);
     auto p = space_body::settings<TestType>();
     auto net = rest.network(flow_boundaries(reservoir("front", on_side{body_side::front}, 0.4),

@@ -68,7 +68,8 @@ TEST_CASE("collision of unequal discs (1a)", "[cases][reference]") {
 }
 
 TEST_CASE("damped collisions (1b)", "[cases][reference]") {
-    for (auto const& [name, id] : {std::pair{"collision_damped_0_1", "1b.zeta=0.1"}, {"collision_damped_0_3", "1b.zeta=0.3"}}) {
+    for (auto const& [name, id] :
+         {std::pair{"collision_damped_0_1", "1b.zeta=0.1"}, {"collision_damped_0_3", "1b.zeta=0.3"}}) {
         auto const t = probes_of(name);
         REQUIRE_THAT(restitution(t), WithinRel(reference(id, "e_end_at_zero_force"), 1e-3));
         REQUIRE_THAT(contact_time(t), WithinRel(reference(id, "t_zero_force"), 1e-3));
@@ -89,7 +90,8 @@ TEST_CASE("oblique impact on a wall (1d)", "[cases][reference]") {
 TEST_CASE("a chain below and above its critical time step (2a)", "[cases][reference]") {
     double const critical = reference("2a.dt_crit_fixed_fixed_N10");
     auto const step_of = [](std::string const& name) {
-        return lacuna_run::read_scenario_file(std::string(LACUNA_RUN_CASES) + "/" + name + ".toml").simulation.time_step;
+        return lacuna_run::read_scenario_file(std::string(LACUNA_RUN_CASES) + "/" + name + ".toml")
+            .simulation.time_step;
     };
     REQUIRE_THAT(step_of("chain_stable"), WithinRel(0.999 * critical, 1e-12));
     REQUIRE_THAT(step_of("chain_unstable"), WithinRel(1.001 * critical, 1e-12));
@@ -103,7 +105,8 @@ TEST_CASE("a chain below and above its critical time step (2a)", "[cases][refere
     REQUIRE(here.files() == std::vector<std::string>{"out/events.csv", "out/probes.csv", "out/summary.json"});
     auto const summary = nlohmann::json::parse(program::read_file(here / "out/summary.json"));
     REQUIRE(summary.at("ended") == "unstable");
-    REQUIRE(table(here / "out/probes.csv").column("position.x[5]").size() == summary.at("steps").get<std::size_t>() + 1);
+    REQUIRE(table(here / "out/probes.csv").column("position.x[5]").size() ==
+            summary.at("steps").get<std::size_t>() + 1);
 }
 
 TEST_CASE("chains and beams (4b, 4c, 4d)", "[cases][reference]") {
@@ -112,7 +115,8 @@ TEST_CASE("chains and beams (4b, 4c, 4d)", "[cases][reference]") {
     REQUIRE_THAT(probes_of("rope").last("position.y[10]"), WithinRel(reference("4c.tension_rope", "tip"), 1e-3));
     auto const t = probes_of("beam");
     REQUIRE_THAT(t.last("position.y[5]") / 1e-9, WithinRel(reference("4d.with_bending_spring", "5", "tip"), 1e-6));
-    REQUIRE_THAT(t.last("rotation[5]") / 1e-9, WithinRel(reference("4d.with_bending_spring", "5", "tip_rotation"), 1e-6));
+    REQUIRE_THAT(t.last("rotation[5]") / 1e-9,
+                 WithinRel(reference("4d.with_bending_spring", "5", "tip_rotation"), 1e-6));
 }
 
 TEST_CASE("pores in a line (5a)", "[cases][reference]") {
@@ -158,7 +162,8 @@ TEST_CASE("slow fracture (8a, 8c)", "[cases][reference]") {
 
 TEST_CASE("pores between discs (9a, 9e)", "[cases][reference]") {
     auto const t = probes_of("hexagon");
-    REQUIRE_THAT(t.column("pore.volume[0.5;0.2]").front(), WithinRel(0.25 * reference("9a.three_equal", "area/R^2"), 1e-12));
+    REQUIRE_THAT(t.column("pore.volume[0.5;0.2]").front(),
+                 WithinRel(0.25 * reference("9a.three_equal", "area/R^2"), 1e-12));
     double const rim = reference("9e.uniform_pressure", "rim_disc_outward_force/(pR)") * 3.0 * 0.5;
     REQUIRE_THAT(t.last("force.x[0]"), WithinAbs(reference("9e.uniform_pressure", "interior_net_force"), 1e-12));
     REQUIRE_THAT(t.last("force.y[0]"), WithinAbs(reference("9e.uniform_pressure", "interior_net_force"), 1e-12));
@@ -270,7 +275,8 @@ normal_stiffness = 1e8
 shear_stiffness = 0.0
 friction = 0.0
 [particles]
-position = [[0.001, 0.001], [0.003, 0.001], [0.005, 0.001], [0.007, 0.001], [0.009, 0.001], [0.011, 0.001], [0.013, 0.001], [0.015, 0.001], [0.017, 0.001], [0.019, 0.001]]
+position = [[0.001, 0.001], [0.003, 0.001], [0.005, 0.001], [0.007, 0.001], [0.009, 0.001],
+            [0.011, 0.001], [0.013, 0.001], [0.015, 0.001], [0.017, 0.001], [0.019, 0.001]]
 radius = 0.001
 material = "m"
 [[walls]]

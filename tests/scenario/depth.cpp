@@ -36,6 +36,7 @@ TEST_CASE("endless nesting is refused before the stack overflows", "[refusal]") 
     REQUIRE_THAT(answer(std::string("a = 25\0" "00\n", 10)), contains_text("case.toml:1: a NUL byte"));
     // Brackets and dots in strings and comments do not count.
     for (std::string const quote : {"\"", "'", "\"\"\"", "'''"})
-        REQUIRE_THAT(answer("simulation = " + quote + times(many, "[.") + quote + "\n"), contains_text("simulation = \"[."));
+        REQUIRE_THAT(answer("simulation = " + quote + times(many, "[.") + quote + "\n"),
+                     contains_text("simulation = \"[."));
     REQUIRE_THAT(answer("# " + times(many, "[.") + "\n"), contains_text("simulation = (missing)"));
 }

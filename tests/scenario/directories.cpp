@@ -21,9 +21,12 @@ namespace {
 /// Two bonded discs that swing; `more` goes below [output].
 std::string pair_text(long long steps, std::string const& more = "") {
     return "[simulation]\nsteps = " + std::to_string(steps) +
-           "\ntime_step = 1e-3\n[materials.m]\ndensity = 1000.0\nnormal_stiffness = 1e6\nshear_stiffness = 5e5\nfriction = 0.2\n"
-           "[particles]\nposition = [[0.0, 0.0], [1.0, 0.0]]\nradius = 0.5\nmaterial = \"m\"\nvelocity = [[-0.5, 0.0], [0.5, 0.0]]\n"
-           "[bonds]\npairs = [[0, 1]]\n[[probes]]\nquantity = \"position.x\"\nparticle = 0\n[output]\n" + more;
+           "\ntime_step = 1e-3\n[materials.m]\ndensity = 1000.0\nnormal_stiffness = 1e6\n"
+           "shear_stiffness = 5e5\nfriction = 0.2\n"
+           "[particles]\nposition = [[0.0, 0.0], [1.0, 0.0]]\nradius = 0.5\nmaterial = \"m\"\n"
+           "velocity = [[-0.5, 0.0], [0.5, 0.0]]\n"
+           "[bonds]\npairs = [[0, 1]]\n[[probes]]\nquantity = \"position.x\"\nparticle = 0\n[output]\n" +
+           more;
 }
 constexpr long long for_ever = 1000000000;
 
@@ -31,7 +34,9 @@ constexpr long long for_ever = 1000000000;
 struct long_run : process::running {
     long_run(folder const& here, std::string const& file, std::vector<std::string> const& options = {})
         : process::running(words(file, options), empty(here)) {
-        for (int k = 0; k < 600 && (!program::fs::exists(here / "out/probes.csv") || table(here / "out/probes.csv").rows.empty()); ++k)
+        for (int k = 0;
+             k < 600 && (!program::fs::exists(here / "out/probes.csv") || table(here / "out/probes.csv").rows.empty());
+             ++k)
             std::this_thread::sleep_for(std::chrono::milliseconds(50));
     }
     static program::fs::path empty(folder const& here) {
@@ -105,8 +110,8 @@ TEST_CASE("two runs do not share a directory, and a killed run releases it", "[p
     REQUIRE_THAT(refused.err, contains_text("--force"));
     REQUIRE(here.run("--quiet --force short.toml").status == 0);
     REQUIRE(table(here / "out/probes.csv").rows.size() == 11);
-    REQUIRE(here.files() ==
-            std::vector<std::string>{"long.toml", "out/events.csv", "out/probes.csv", "out/summary.json", "short.toml"});
+    REQUIRE(here.files() == std::vector<std::string>{"long.toml", "out/events.csv", "out/probes.csv",
+                                                     "out/summary.json", "short.toml"});
     // Another process may have the number of the dead owner.
     here.write("out/lacuna.lock", std::to_string(getpid()) + " 1 elsewhere\n");
     REQUIRE(here.run("--quiet --force short.toml").status == 0);
@@ -122,7 +127,8 @@ TEST_CASE("after a signal files are complete, and the message says how to contin
         run.send(signal); // as `timeout` does: to the program, and to its group
         REQUIRE(run.wait() == 128 + signal);
         std::string const name = signal == SIGTERM ? "SIGTERM" : signal == SIGINT ? "SIGINT" : "SIGHUP";
-        REQUIRE_THAT(process::read_all((here / "../signals.said").string()), contains_text("stopped by " + name) && contains_text("--restart"));
+        REQUIRE_THAT(process::read_all((here / "../signals.said").string()),
+                     contains_text("stopped by " + name) && contains_text("--restart"));
         auto const summary = nlohmann::json::parse(program::read_file(here / "out/summary.json"));
         REQUIRE(summary.at("ended") == "stopped by " + name);
         long long const steps = summary.at("steps");
@@ -141,14 +147,17 @@ TEST_CASE("after a signal files are complete, and the message says how to contin
     }
 }
 
-TEST_CASE("a run is resumed in another directory, and from a checkpoint that was copied", "[program][directory][checkpoint]") {
+TEST_CASE("a run is resumed in another directory, and from a checkpoint that was copied",
+          "[program][directory][checkpoint]") {
     std::string const text = pair_text(100, "vtk_every = 10\ncheckpoint_every = 40\n");
     folder const whole("resumed_whole"), other("resumed_other");
     whole.write("case.toml", text);
     REQUIRE(whole.run("--quiet case.toml").status == 0);
     auto const expected = process::files_of(whole / "out");
     other.write("case.toml", text);
-    auto const from = [](program::fs::path const& path) { return "--quiet --restart '" + path.string() + "' case.toml"; };
+    auto const from = [](program::fs::path const& path) {
+        return "--quiet --restart '" + path.string() + "' case.toml";
+    };
     REQUIRE(other.run(from(whole / "out/checkpoint.bin")).status == 0);
     REQUIRE((process::files_of(other / "out") == expected));
     // The directory holds results of another run.
@@ -200,7 +209,8 @@ TEST_CASE("rows are in the file before the run ends", "[program][directory]") {
     folder const here("growing");
     here.write("long.toml", pair_text(for_ever, "checkpoint_every = 500\n"));
     long_run run(here, "long.toml");
-    for (int k = 0; k < 600 && !holds(here.files(), "out/checkpoint.bin"); ++k) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    for (int k = 0; k < 600 && !holds(here.files(), "out/checkpoint.bin"); ++k)
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
     run.send(SIGKILL);
     run.wait();
     auto const rows = table(here / "out/probes.csv").rows;

@@ -118,12 +118,17 @@ tree file_with(key const& row, std::string const& value, std::uint64_t violated 
     return file;
 }
 
-std::string number_text(double x) { return lacuna::to_text(x).find_first_of(".en") == std::string::npos ? lacuna::to_text(x) + ".0" : lacuna::to_text(x); }
+std::string number_text(double x) {
+    return lacuna::to_text(x).find_first_of(".en") == std::string::npos ? lacuna::to_text(x) + ".0"
+                                                                        : lacuna::to_text(x);
+}
 
 /// An allowed value.
 std::string sample(key const& row) {
     rule const& r = row.good;
-    double const inside = std::isfinite(r.least) && std::isfinite(r.most) ? 0.5 * (r.least + r.most) : std::isfinite(r.most) ? r.most - 1 : 1;
+    double const inside = std::isfinite(r.least) && std::isfinite(r.most) ? 0.5 * (r.least + r.most)
+                          : std::isfinite(r.most)                         ? r.most - 1
+                                                                          : 1;
     switch (row.what) {
     case kind::table: return "{}";
     case kind::tables: return "[]";
@@ -161,7 +166,8 @@ TEST_CASE("each key is read as its row says", "[keys]") {
         };
         // An allowed value: a refusal, if any, names another key.
         auto const good = answer(file_with(row, sample(row)));
-        if (std::string_view(row.path).find('.') != std::string_view::npos && row.what != kind::tables && row.what != kind::table) {
+        if (std::string_view(row.path).find('.') != std::string_view::npos && row.what != kind::tables &&
+            row.what != kind::table) {
             REQUIRE(good.rfind(path + " = ", 0) == std::string::npos);
             REQUIRE(good.rfind(path + "[", 0) == std::string::npos);
         }
@@ -171,12 +177,16 @@ TEST_CASE("each key is read as its row says", "[keys]") {
         tree misspelt = file_with(row, sample(row));
         misspelt.set(std::string(row.path) + (row.what == kind::named ? "q.q" : "q"), sample(row));
         if (std::string_view(row.path).back() != '*')
-            REQUIRE_THAT(answer(misspelt), contains_text(path + "q = ") && contains_text("must be a known key (did you mean"));
+            REQUIRE_THAT(answer(misspelt),
+                         contains_text(path + "q = ") && contains_text("must be a known key (did you mean"));
         // Numbers outside the range.
         if (row.what == kind::number || row.what == kind::each_number || row.what == kind::step) {
-            if (std::isfinite(row.good.least)) refused(number_text(row.good.least - 1), "must be " + std::string(row.good.text));
-            if (row.good.above_least) refused(number_text(row.good.least), path + " = " + lacuna::to_text(row.good.least) + ": must be");
-            if (std::isfinite(row.good.most)) refused(number_text(row.good.most + 1), "must be " + std::string(row.good.text));
+            if (std::isfinite(row.good.least))
+                refused(number_text(row.good.least - 1), "must be " + std::string(row.good.text));
+            if (row.good.above_least)
+                refused(number_text(row.good.least), path + " = " + lacuna::to_text(row.good.least) + ": must be");
+            if (std::isfinite(row.good.most))
+                refused(number_text(row.good.most + 1), "must be " + std::string(row.good.text));
             refused("nan", path + " = nan: must be finite");
         }
         if (row.what == kind::whole) {

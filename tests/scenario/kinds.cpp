@@ -19,7 +19,9 @@ using program::table;
 
 namespace {
 
-std::string case_text(std::string const& name) { return program::read_file(std::string(LACUNA_RUN_CASES) + "/" + name + ".toml"); }
+std::string case_text(std::string const& name) {
+    return program::read_file(std::string(LACUNA_RUN_CASES) + "/" + name + ".toml");
+}
 
 /// The text with each occurrence of `old` replaced.
 std::string with(std::string text, std::string const& old, std::string const& replacement) {
@@ -86,7 +88,8 @@ TEST_CASE("a sphere hits a wall and does not slip, in double and in single preci
 }
 
 TEST_CASE("Hertzian collisions, in space and in the plane, in double and in single precision", "[cases]") {
-    double const mass = 1000.0 * 4.0 / 3 * 3.14159265358979323846 * 0.125 / 2, stiffness = 4.0 / 3 * 1e8 / (2 * 0.91) * 0.5;
+    double const mass = 1000.0 * 4.0 / 3 * 3.14159265358979323846 * 0.125 / 2,
+                 stiffness = 4.0 / 3 * 1e8 / (2 * 0.91) * 0.5;
     double const depth = std::pow(1.25 * mass * 0.01 / stiffness, 0.4);
     auto const space = case_text("hertz");
     auto plane = with(space, "dimension = 3", "dimension = 2\nmass = \"sphere\"");
@@ -99,7 +102,8 @@ TEST_CASE("Hertzian collisions, in space and in the plane, in double and in sing
             auto text = flat ? plane : space;
             // A longer step in single precision: with the short one rounding would show.
             if (single)
-                text = with(with(with(text, "time_step = 2.22955e-05", "time_step = 2.22955e-04"), "steps = 2400", "steps = 240"),
+                text = with(with(with(text, "time_step = 2.22955e-05", "time_step = 2.22955e-04"), "steps = 2400",
+                                 "steps = 240"),
                             "[simulation]", "[simulation]\nreal = \"float\"");
             auto const t = run_text(std::string("hertz") + (flat ? "_plane" : "") + (single ? "_float" : ""), text);
             double const within = single ? 1e-2 : 1e-3;
@@ -161,7 +165,8 @@ TEST_CASE("a run writes the same files with 1, 2 and 4 threads, and when it is r
 
 TEST_CASE("a checkpoint that does not belong to a scenario is refused", "[program][checkpoint][refusal]") {
     folder const here("block_refused");
-    std::string const whole = with(with(case_text("block"), "steps = 400", "steps = 3"), "checkpoint_every = 260", "checkpoint_every = 1");
+    std::string const whole =
+        with(with(case_text("block"), "steps = 400", "steps = 3"), "checkpoint_every = 260", "checkpoint_every = 1");
     here.write("case.toml", whole);
     REQUIRE(here.run("--quiet case.toml").status == 0);
     auto const refused = [&](std::string const& text, std::string const& file, std::string const& message) {
@@ -199,7 +204,8 @@ TEST_CASE("VTK files and pictures show the state of the run", "[program]") {
     // second row stands back: two on the left, two on the right.
     REQUIRE(summary.at("pores").size() == 84);
     auto const series = program::read_file(here / "out/pores.pvd");
-    for (char const* step : {"0000", "0200", "0400"}) REQUIRE_THAT(series, contains_text(std::string("pores-00000000") + step));
+    for (char const* step : {"0000", "0200", "0400"})
+        REQUIRE_THAT(series, contains_text(std::string("pores-00000000") + step));
     auto const png = program::read_file(here / "out/picture-000000000400.png");
     REQUIRE(png.size() > 10000);
     REQUIRE(png.substr(0, 8) == "\x89PNG\r\n\x1a\n");

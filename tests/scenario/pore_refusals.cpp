@@ -16,7 +16,8 @@ namespace {
 enum class motion { coupled, rigid };
 
 /// \param fluid further keys of it
-std::string deck(std::string const& places, motion how, std::string const& fluid = "", std::string const& settings = "") {
+std::string deck(std::string const& places, motion how, std::string const& fluid = "",
+                 std::string const& settings = "") {
     bool const rigid = how == motion::rigid;
     return "[simulation]\nsteps = 400\ntime_step = 1e-3\n" + settings + "[materials.m]\n" +
            (rigid ? "" : "density = 1000.0\nnormal_stiffness = 1e5\nshear_stiffness = 5e4\nfriction = 0.2\n") +
@@ -43,12 +44,16 @@ TEST_CASE("particles without pores are named as the deck numbers them", "[fluid]
         std::vector<std::string> says;
     };
     // In another order than the one in which the simulation stores them.
-    for (one const& c : {one{"[[4.0, 0.0], [3.0, 0.0], [2.0, 0.0], [1.0, 0.0], [0.0, 0.0]]",
-                             {"fluid: number of pores = 0: must be at least 1", "on one line", "particle 0 at (4, 0) m", "particle 4 at (0, 0) m"}},
-                         one{"[[90.0, 9.0], [50.0, 40.0], [50.0, 0.0], [1.0, 0.0], [0.0, 0.0]]",
-                             {"fluid: number of pores = 0", "too far from each other", "particle 0 at (90, 9) m", "particle 4 at (0, 0) m"}},
-                         one{"[[1.0, 0.0], [0.0, 0.0]]", {"fluid: number of pores = 0", "3 particles around it, and there are 2"}},
-                         one{"[[9.0, 0.0], [0.5, 0.875], [1.0, 0.0], [0.0, 0.0], [1.0, 0.0]]", {"particles 2 and 4 are at the same place (1, 0)"}}})
+    for (one const& c :
+         {one{"[[4.0, 0.0], [3.0, 0.0], [2.0, 0.0], [1.0, 0.0], [0.0, 0.0]]",
+              {"fluid: number of pores = 0: must be at least 1", "on one line", "particle 0 at (4, 0) m",
+               "particle 4 at (0, 0) m"}},
+          one{"[[90.0, 9.0], [50.0, 40.0], [50.0, 0.0], [1.0, 0.0], [0.0, 0.0]]",
+              {"fluid: number of pores = 0", "too far from each other", "particle 0 at (90, 9) m",
+               "particle 4 at (0, 0) m"}},
+          one{"[[1.0, 0.0], [0.0, 0.0]]", {"fluid: number of pores = 0", "3 particles around it, and there are 2"}},
+          one{"[[9.0, 0.0], [0.5, 0.875], [1.0, 0.0], [0.0, 0.0], [1.0, 0.0]]",
+              {"particles 2 and 4 are at the same place (1, 0)"}}})
         for (motion const how : {motion::coupled, motion::rigid})
             for (std::string const options : {"--quiet ", "--check "}) {
                 here.clear();
@@ -75,7 +80,8 @@ TEST_CASE("explicit flow that needs too many steps is refused as an error of the
         here.write("case.toml", deck(body, motion::coupled, "conductivity = 1e12\n"));
         auto const ran = here.run(options + "case.toml");
         require_refused(ran, here);
-        CHECK_THAT(ran.err, contains_text("fluid.solver = \"explicit\": must be \"implicit\"") && contains_text("step of 0.001"));
+        CHECK_THAT(ran.err, contains_text("fluid.solver = \"explicit\": must be \"implicit\"") &&
+                                contains_text("step of 0.001"));
         std::string const before = "explicit flow is ";
         auto const at = ran.err.find(before);
         REQUIRE(at != ran.err.npos);
@@ -86,21 +92,27 @@ TEST_CASE("explicit flow that needs too many steps is refused as an error of the
     here.write("case.toml", deck(body, motion::coupled, "conductivity = 1e12\nmerge_conductance = 1e30\n"));
     auto const ran = here.run("--quiet case.toml");
     require_refused(ran, here);
-    CHECK_THAT(ran.err, contains_text("time_step = 0.001 s: must be at most ") && contains_text("100000 substeps of explicit flow"));
+    CHECK_THAT(ran.err, contains_text("time_step = 0.001 s: must be at most ") &&
+                            contains_text("100000 substeps of explicit flow"));
 }
 
-TEST_CASE("a run whose throats open too far for explicit flow ends as unstable and keeps its results", "[fluid][program]") {
+TEST_CASE("a run whose throats open too far for explicit flow ends as unstable and keeps its results",
+          "[fluid][program]") {
     folder const here("throats_that_open");
-    here.write("case.toml",
-               deck("[[0.0, 0.0], [1.0, 0.0], [0.5, 0.8660254], [1.5, 0.8660254]]", motion::coupled,
-                    "conductivity = 5e4\naperture = { law = \"contact_force\", a0 = 1e-4, F0 = 1e3, gap_multiplier = 1.0 }\n") +
-                   "[[loads]]\nparticles = [0, 1]\nvelocity = [0.0, -1.0]\n[[loads]]\nparticles = [2, 3]\nvelocity = [0.0, 0.0]\n"
-                   "[[probes]]\nquantity = \"position.y\"\nparticle = 0\n");
+    here.write(
+        "case.toml",
+        deck(
+            "[[0.0, 0.0], [1.0, 0.0], [0.5, 0.8660254], [1.5, 0.8660254]]", motion::coupled,
+            "conductivity = 5e4\naperture = { law = \"contact_force\", a0 = 1e-4, F0 = 1e3, gap_multiplier = 1.0 }\n") +
+            "[[loads]]\nparticles = [0, 1]\nvelocity = [0.0, -1.0]\n[[loads]]\nparticles = [2, 3]\n"
+            "velocity = [0.0, 0.0]\n"
+            "[[probes]]\nquantity = \"position.y\"\nparticle = 0\n");
     auto const ran = here.run("--quiet case.toml");
     INFO(ran.err);
     CHECK(ran.status == 3);
     CHECK(std::count(ran.err.begin(), ran.err.end(), '\n') == 1);
-    CHECK_THAT(ran.err, contains_text("unstable run at step ") && contains_text("time_step = 0.001 s: must be at most "));
+    CHECK_THAT(ran.err,
+               contains_text("unstable run at step ") && contains_text("time_step = 0.001 s: must be at most "));
     auto const summary = nlohmann::json::parse(program::read_file(here / "out/summary.json"));
     CHECK(summary["ended"] == "unstable");
     CHECK(summary["steps"].get<int>() > 10);

@@ -35,7 +35,8 @@ struct result {
     std::string out, err;
 };
 
-/// A folder for one test, empty at first, removed at its end. Tests run side by side: it lies in a folder of the process.
+/// A folder for one test, empty at first, removed at its end. Tests run side by side: it lies in a folder of the
+/// process.
 class folder {
 public:
     explicit folder(std::string const& name)
@@ -53,7 +54,9 @@ public:
         fs::create_directories(path_);
     }
     fs::path operator/(std::string const& name) const { return path_ / name; }
-    void write(std::string const& name, std::string const& text) const { std::ofstream(path_ / name, std::ios::binary) << text; }
+    void write(std::string const& name, std::string const& text) const {
+        std::ofstream(path_ / name, std::ios::binary) << text;
+    }
     std::vector<std::string> files() const {
         std::vector<std::string> names;
         for (auto const& entry : fs::recursive_directory_iterator(path_))

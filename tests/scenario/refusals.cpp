@@ -123,7 +123,8 @@ struct bad_value {
 
 bad_value const bad_values[] = {
     // unknown keys, with the nearest known one
-    {"density = 1000.0", "densty = 1000.0", "materials.matrix.densty = 1000: must be a known key (did you mean \"density\"?)"},
+    {"density = 1000.0", "densty = 1000.0",
+     "materials.matrix.densty = 1000: must be a known key (did you mean \"density\"?)"},
     {"safety = 0.2", "savety = 0.2", "simulation.savety = 0.2: must be a known key (did you mean \"safety\"?)"},
     {"[output]", "[outputs]", "outputs = {...}: must be a known key (did you mean \"output\"?)"},
     {"ramp_time = 0.0", "qqqqqq = 0.0", "loads[0].qqqqqq = 0: must be a known key"},
@@ -140,11 +141,13 @@ bad_value const bad_values[] = {
     // wrong types
     {"density = 1000.0", "density = \"heavy\"", "materials.matrix.density = \"heavy\": must be a number"},
     {"steps = 20", "steps = 20.5", "simulation.steps = 20.5: must be a whole number"},
-    {"allow_unstable_step = false", "allow_unstable_step = 0", "simulation.allow_unstable_step = 0: must be true or false"},
+    {"allow_unstable_step = false", "allow_unstable_step = 0",
+     "simulation.allow_unstable_step = 0: must be true or false"},
     {"pairs = [[0, 1]]", "pairs = 3", "bonds.pairs = 3: must be a list"},
     {"real = \"double\"", "real = 64", "simulation.real = 64: must be one of \"double\", \"float\""},
     {"spin = [0.0, 0.0, 0.0]", "spin = [[0.0], 0.0, 0.0]", "particles.spin[0] = [...]: must be a number"},
-    {"damping = { local = 0.0, mass = 0.0, viscous = 0.0 }", "damping = 0.1", "simulation.damping = 0.1: must be a table"},
+    {"damping = { local = 0.0, mass = 0.0, viscous = 0.0 }", "damping = 0.1",
+     "simulation.damping = 0.1: must be a table"},
     {"directory = \"out\"", "directory = 1", "output.directory = 1: must be a string"},
     // out of range
     {"density = 1000.0", "density = -1", "materials.matrix.density = -1: must be > 0"},
@@ -155,7 +158,8 @@ bad_value const bad_values[] = {
     {"dimension = 2", "dimension = -1e308", "simulation.dimension = -1e+308: must be a whole number"},
     {"density = 1000.0", "density = 5e-324", "materials.matrix.density = 4.94066e-324: must be at least 1e-300"},
     {"thickness = 1.0", "thickness = 0.0", "simulation.thickness = 0: must be > 0"},
-    {"time_step = \"auto\"", "time_step = \"fast\"", "simulation.time_step = \"fast\": must be \"auto\" or a number of seconds"},
+    {"time_step = \"auto\"", "time_step = \"fast\"",
+     "simulation.time_step = \"fast\": must be \"auto\" or a number of seconds"},
     {"time_step = \"auto\"", "time_step = -1", "simulation.time_step = -1: must be > 0"},
     {"safety = 0.2", "safety = 1.5", "simulation.safety = 1.5: must be > 0 and <= 1"},
     {"threads = 1", "threads = 0", "simulation.threads = 0: must be from 1 to 1024"},
@@ -163,7 +167,8 @@ bad_value const bad_values[] = {
     {"steps = 20", "steps = 20\nend_time = 1.0", "simulation.end_time = 1: must be left out: steps is given"},
     {"contact_law = \"frictional_spring\"", "contact_law = \"sticky\"",
      "simulation.contact_law = \"sticky\": must be one of \"none\", \"frictional_spring\", \"hertz_mindlin\""},
-    {"gravity = [0.0, 0.0]", "gravity = [0.0, -1.0]\nfluid_density = -1", "simulation.fluid_density = -1: must be >= 0"},
+    {"gravity = [0.0, 0.0]", "gravity = [0.0, -1.0]\nfluid_density = -1",
+     "simulation.fluid_density = -1: must be >= 0"},
     {"gravity = [0.0, 0.0]", "gravity = [0.0]", "simulation.gravity = [...]: must be a list of 2 numbers"},
     {"radius = 0.5", "radius = [0.5, 0.5]", "particles.radius = [...]: must be one value or one per particle"},
     {"radius = 0.5", "radius = [0.5, 0.5, 0.0]", "particles.radius[2] = 0: must be > 0"},
@@ -181,33 +186,48 @@ bad_value const bad_values[] = {
     {"pairs = [[0, 1]]", "pairs = [[0, 3]]", "bonds.pairs[0][1] = 3: must be from 0 to 2, the last of the particles"},
     {"pairs = [[0, 1]]", "pairs = [[0, -1]]", "bonds.pairs[0][1] = -1: must be from 0 to 2"},
     {"pairs = [[0, 1]]", "pairs = [[1, 1]]", "bonds.pairs[0] = [...]: must be two different particles"},
-    {"pairs = [[0, 1]]", "pairs = [[0, 1], [1, 0]]", "bonds.pairs[1] = [...]: must be a pair that was not listed before"},
+    {"pairs = [[0, 1]]", "pairs = [[0, 1], [1, 0]]",
+     "bonds.pairs[1] = [...]: must be a pair that was not listed before"},
     {"particles = [1]", "particles = [7]", "loads[0].particles[0] = 7: must be from 0 to 2"},
-    {"fix = [ { particles = [0]", "fix = [ { particles = [9]", "particles.fix[0].particles[0] = 9: must be from 0 to 2"},
+    {"fix = [ { particles = [0]", "fix = [ { particles = [9]",
+     "particles.fix[0].particles[0] = 9: must be from 0 to 2"},
     {"particle = 1\n", "particle = 3\n", "probes[0].particle = 3: must be from 0 to 2"},
     {"quantity = \"position.x\"\nparticle = 1", "quantity = \"bond.broken\"\nbond = 1",
      "probes[0].bond = 1: must be from 0 to 0, the last of the bonds"},
-    {"quantity = \"position.x\"\nparticle = 1", "quantity = \"wall.force.x\"\nwall = 2", "probes[0].wall = 2: must be from 0 to 0"},
+    {"quantity = \"position.x\"\nparticle = 1", "quantity = \"wall.force.x\"\nwall = 2",
+     "probes[0].wall = 2: must be from 0 to 0"},
     // keys that exclude each other
     {"quantity = \"position.x\"\nparticle = 1", "quantity = \"energy.kinetic\"\nparticle = 1",
      "probes[0].particle = 1: must be left out"},
-    {"quantity = \"position.x\"", "quantity = \"position.z\"", "probes[0].quantity = \"position.z\": must be a known quantity"},
+    {"quantity = \"position.x\"", "quantity = \"position.z\"",
+     "probes[0].quantity = \"position.z\": must be a known quantity"},
     {"pairs = [[0, 1]]", "pairs = [[0, 1]]\nbending_stiffness = 1.0", "bonds.bending_stiffness = 1: must be left out"},
-    {"pairs = [[0, 1]]", "pairs = [[0, 1]]\nshear_stiffness = [1.0, 2.0]", "bonds.shear_stiffness = [...]: must be one value or one per bond"},
-    {"pairs = [[0, 1]]", "pairs = [[0, 1]]\ntensile_force = 1.0", "materials.matrix.tensile_strength = 1e+300: must be left out: no bond uses it"},
+    {"pairs = [[0, 1]]", "pairs = [[0, 1]]\nshear_stiffness = [1.0, 2.0]",
+     "bonds.shear_stiffness = [...]: must be one value or one per bond"},
+    {"pairs = [[0, 1]]", "pairs = [[0, 1]]\ntensile_force = 1.0",
+     "materials.matrix.tensile_strength = 1e+300: must be left out: no bond uses it"},
     {"time_step = \"auto\"", "time_step = 1e-9", "simulation.safety = 0.2: must be left out: time_step is given"},
-    {"gravity = [0.0, 0.0]", "gravity = [0.0, 0.0]\nfluid_density = 1.0", "simulation.fluid_density = 1: must be left out: there is no gravity"},
-    {"mechanical_coupling = true", "mechanical_coupling = false", "must be left out: fluid.mechanical_coupling is false: particles do not move"},
-    {"solver = \"explicit\"", "solver = \"implicit\"\nminimum_pressure = 0.0", "fluid.minimum_pressure = 0: must be left out: solver is \"implicit\""},
+    {"gravity = [0.0, 0.0]", "gravity = [0.0, 0.0]\nfluid_density = 1.0",
+     "simulation.fluid_density = 1: must be left out: there is no gravity"},
+    {"mechanical_coupling = true", "mechanical_coupling = false",
+     "must be left out: fluid.mechanical_coupling is false: particles do not move"},
+    {"solver = \"explicit\"", "solver = \"implicit\"\nminimum_pressure = 0.0",
+     "fluid.minimum_pressure = 0: must be left out: solver is \"implicit\""},
     {"solver = \"explicit\"", "minimum_pressure = 1.0", "fluid.minimum_pressure = 1: must be <= 0"},
-    {"initial_pressure = 0.0", "initial_pressure = -5.0\nminimum_pressure = -1.0", "fluid.initial_pressure = -5: must be >= fluid.minimum_pressure, -1"},
-    {"force = [10.0, 0.0]", "velocity = [10.0, 0.0]\n[[loads]]\nparticles = [0]\nvelocity = [1.0, 0.0]", "particles.fix[0].axes = particle 0: must be \"r\" or left out: loads[1].velocity moves it"},
+    {"initial_pressure = 0.0", "initial_pressure = -5.0\nminimum_pressure = -1.0",
+     "fluid.initial_pressure = -5: must be >= fluid.minimum_pressure, -1"},
+    {"force = [10.0, 0.0]", "velocity = [10.0, 0.0]\n[[loads]]\nparticles = [0]\nvelocity = [1.0, 0.0]",
+     "particles.fix[0].axes = particle 0: must be \"r\" or left out: loads[1].velocity moves it"},
     {"pairs = [[0, 1]]", "touching = true", "bonds.gap = (missing): must be given"},
     {"bond_law = \"brittle_spring\"", "bond_law = \"none\"", "bonds = {...}: must be left out: bond_law is \"none\""},
-    {"contact_law = \"frictional_spring\"", "contact_law = \"none\"", "walls[0] = {...}: must be left out: contact_law is \"none\""},
-    {"density = 1000.0", "density = 1000.0\nyoung_modulus = 1e9", "materials.matrix.young_modulus = 1e+09: must be left out"},
-    {"boundary = \"sealed\"", "boundary = \"sealed\"\nboundary_pressure = 1.0", "fluid.boundary_pressure = 1: must be left out"},
-    {"force = [10.0, 0.0]", "force = [10.0, 0.0]\nvelocity = [1.0, 0.0]", "loads[0].force = [...]: must be left out: velocity is given"},
+    {"contact_law = \"frictional_spring\"", "contact_law = \"none\"",
+     "walls[0] = {...}: must be left out: contact_law is \"none\""},
+    {"density = 1000.0", "density = 1000.0\nyoung_modulus = 1e9",
+     "materials.matrix.young_modulus = 1e+09: must be left out"},
+    {"boundary = \"sealed\"", "boundary = \"sealed\"\nboundary_pressure = 1.0",
+     "fluid.boundary_pressure = 1: must be left out"},
+    {"force = [10.0, 0.0]", "force = [10.0, 0.0]\nvelocity = [1.0, 0.0]",
+     "loads[0].force = [...]: must be left out: velocity is given"},
 };
 
 } // namespace
@@ -240,7 +260,8 @@ TEST_CASE("a refused scenario leaves one line, status 2 and no file", "[refusal]
     };
     refused(with("density = 1000.0", "density = -1"), "materials.matrix.density = -1: must be > 0");
     refused(with("density = 1000.0", "density = -1"), "materials.matrix.density = -1: must be > 0", "--check");
-    refused(with("time_step = \"auto\"\nsafety = 0.2", "time_step = 1.0"), "simulation.time_step = 1: must be at most the stable limit");
+    refused(with("time_step = \"auto\"\nsafety = 0.2", "time_step = 1.0"),
+            "simulation.time_step = 1: must be at most the stable limit");
     refused(with("sources = [ { near = [0.5, 0.5], flow = 0.0 } ]", "sources = [ { pore = 7, flow = 0.0 } ]"),
             "fluid.sources[0].pore = 7: must be from 0 to 0, the last of the pores");
     refused(with("margin_diameters = 0", "margin_diameters = 9"), "loads[1].margin_diameters = 9: must be");
@@ -266,7 +287,8 @@ TEST_CASE("checking writes nothing, running writes three files", "[program]") {
     REQUIRE(here.files() == std::vector<std::string>{"case.toml"});
     auto const ran = here.run("case.toml");
     REQUIRE(ran.status == 0);
-    REQUIRE(here.files() == std::vector<std::string>{"case.toml", "out/events.csv", "out/probes.csv", "out/summary.json"});
+    REQUIRE(here.files() ==
+            std::vector<std::string>{"case.toml", "out/events.csv", "out/probes.csv", "out/summary.json"});
     program::table const probes(here / "out/probes.csv");
     REQUIRE(probes.heading == std::vector<std::string>{"step", "time", "position.x[1]"});
     REQUIRE(probes.column("step") == std::vector<double>{0, 10, 20});
@@ -283,7 +305,8 @@ TEST_CASE("particles from a file", "[program]") {
     auto const from = text.find("position = "), to = text.find("fix = ");
     text.replace(from, to - from, "file = \"particles.csv\"\n");
     here.write("case.toml", text);
-    std::string const good = "radius,material,position.x,position.y,spin\n0.5,matrix,0,0,0\n0.5,matrix,1,0,0\n0.5,matrix,0.5,0.9,0\n";
+    std::string const good =
+        "radius,material,position.x,position.y,spin\n0.5,matrix,0,0,0\n0.5,matrix,1,0,0\n0.5,matrix,0.5,0.9,0\n";
     here.write("particles.csv", good);
     REQUIRE(here.run("--quiet case.toml").status == 0);
     program::table const probes(here / "out/probes.csv");
@@ -299,9 +322,11 @@ TEST_CASE("particles from a file", "[program]") {
         REQUIRE(there.run("--quiet case.toml").status == 0);
         return program::table(there / "out/probes.csv").rows;
     };
-    REQUIRE(rows_of("particle_file_commas", "\xEF\xBB\xBFX;Y;R;material\r\n0,0;0;0,5;matrix\r\n1;0;0,5;matrix\r\n0,5;0,9;0,5;matrix\r\n") ==
+    REQUIRE(rows_of("particle_file_commas",
+                    "\xEF\xBB\xBFX;Y;R;material\r\n0,0;0;0,5;matrix\r\n1;0;0,5;matrix\r\n0,5;0,9;0,5;matrix\r\n") ==
             probes.rows);
-    std::string const heavy = "x,y,r,material,density\n0,0,0.5,matrix,4000\n1,0,0.5,matrix,4000\n0.5,0.9,0.5,matrix,4000\n";
+    std::string const heavy =
+        "x,y,r,material,density\n0,0,0.5,matrix,4000\n1,0,0.5,matrix,4000\n0.5,0.9,0.5,matrix,4000\n";
     auto const of_file = rows_of("particle_file_dense", heavy);
     REQUIRE(of_file != probes.rows);
     auto const density = text.find("density = 1000.0");
@@ -309,12 +334,17 @@ TEST_CASE("particles from a file", "[program]") {
     text.replace(density, 16, "density = 4000.0");
     REQUIRE(rows_of("particle_file_heavy", good) == of_file);
     for (auto const& [bad, message] :
-         {std::pair<std::string, std::string>{"radius,material,position.x\n", "particles.file:1: position.y = (missing): must be given"},
-          {"radius,material,position.x,positon.y\n", "particles.file:1 = \"positon.y\": must be a known column (did you mean \"position.y\"?)"},
-          {"radius,material,position.x,position.y\n0.5,matrix,0,zero\n", "particles.file:2: position.y = \"zero\": must be a number"},
+         {std::pair<std::string, std::string>{"radius,material,position.x\n",
+                                              "particles.file:1: position.y = (missing): must be given"},
+          {"radius,material,position.x,positon.y\n",
+           "particles.file:1 = \"positon.y\": must be a known column (did you mean \"position.y\"?)"},
+          {"radius,material,position.x,position.y\n0.5,matrix,0,zero\n",
+           "particles.file:2: position.y = \"zero\": must be a number"},
           {"radius,material,position.x,position.y\n-1,matrix,0,0\n", "particles.file:2: radius = -1: must be > 0"},
-          {"radius,material,position.x,position.y\n0.5,bone,0,0\n", "particles.file:2: material = \"bone\": must be the name of a material"},
-          {"radius,material,position.x,position.y\n0.5,matrix,0\n", "particles.file:2 = 3 cells: must be as many as the heading has, 4"}}) {
+          {"radius,material,position.x,position.y\n0.5,bone,0,0\n",
+           "particles.file:2: material = \"bone\": must be the name of a material"},
+          {"radius,material,position.x,position.y\n0.5,matrix,0\n",
+           "particles.file:2 = 3 cells: must be as many as the heading has, 4"}}) {
         here.write("particles.csv", bad);
         auto const ran = here.run("--check case.toml");
         REQUIRE(ran.status == 2);

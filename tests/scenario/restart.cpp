@@ -22,7 +22,8 @@ namespace {
 
 std::string with(std::string text, std::string const& old, std::string const& replacement) {
     auto const at = text.find(old);
-    if (at == std::string::npos || text.find(old, at + 1) != std::string::npos) throw std::invalid_argument(old + " is not there once");
+    if (at == std::string::npos || text.find(old, at + 1) != std::string::npos)
+        throw std::invalid_argument(old + " is not there once");
     return text.replace(at, old.size(), replacement);
 }
 
@@ -139,7 +140,8 @@ TEST_CASE("a force changed at a restart starts from the force that acts then", "
             REQUIRE_THAT(run(a, b).last("velocity.x[0]"), WithinRel(0.01 * (first + changed) / mass, within));
             REQUIRE_THAT(run(a, a).last("velocity.x[0]"), WithinRel(0.01 * (first + as_before) / mass, within));
             REQUIRE_THAT(run(a, "").last("velocity.x[0]"), WithinRel(0.01 * first / mass, within));
-            REQUIRE_THAT(run("", b).last("velocity.x[0]"), WithinRel(0.01 * (changed - 50 * 20 + 25 * 19) / mass, within));
+            REQUIRE_THAT(run("", b).last("velocity.x[0]"),
+                         WithinRel(0.01 * (changed - 50 * 20 + 25 * 19) / mass, within));
         }
 }
 
@@ -148,7 +150,8 @@ TEST_CASE("pressures, prescribed velocities, steps and probes changed at a resta
         return two_stages("restart_other", free_bodies(50, first), free_bodies(100, second));
     };
     // Pressure on the top acts on pi r^2 of each disc: 1 Pa on a disc of 1000 kg/m^3 gives 1e-3 m/s^2.
-    auto const pressed = run(load("pressure = 1000.0\narea = \"disc\"", 0, ""), load("pressure = 3000.0\narea = \"disc\"\nside = \"bottom\"", 0, ""));
+    auto const pressed = run(load("pressure = 1000.0\narea = \"disc\"", 0, ""),
+                             load("pressure = 3000.0\narea = \"disc\"\nside = \"bottom\"", 0, ""));
     REQUIRE_THAT(pressed.last("velocity.y[1]"), WithinRel(-2.0 + 0.5 * (-1.0 + 3.0), 1e-12));
     // From 0.5 m/s, half way up a ramp to 1 m/s, to 3 m/s within 0.2 s. Released, the disc keeps its velocity and
     // falls.
@@ -166,7 +169,8 @@ TEST_CASE("pressures, prescribed velocities, steps and probes changed at a resta
     REQUIRE_THAT(other.last("velocity.y[0]"), WithinRel(-1.2, 1e-12));
 }
 
-TEST_CASE("a third stage continues from the loads of the second, with the same bits as two stages", "[restart][checkpoint]") {
+TEST_CASE("a third stage continues from the loads of the second, with the same bits as two stages",
+          "[restart][checkpoint]") {
     folder const here("restart_thrice");
     std::string const before = load("force = [100.0, 0.0]", 1.0), after = load("force = [300.0, 5.0]", 0.8);
     std::string const every = "[output]\ncheckpoint_every = 10\ndirectory = ";
@@ -272,7 +276,8 @@ struct change {
     std::string key, old, replacement, path;
 };
 
-void check_refused(std::string const& name, std::string const& deck, std::vector<change> const& changes, std::set<std::string>& seen) {
+void check_refused(std::string const& name, std::string const& deck, std::vector<change> const& changes,
+                   std::set<std::string>& seen) {
     folder const here(name);
     here.write("case.toml", deck + "[output]\ncheckpoint_every = 3\n");
     here.write("list.csv", "position.x,position.y,radius,material\n0,0,0.5,a\n1,0,0.5,a\n");
@@ -309,7 +314,8 @@ std::vector<change> const coupled_changes{
     {"simulation.damping.mass", "mass = 0.2", "mass = 0.3", "simulation.damping.mass"},
     {"simulation.damping.viscous", "viscous = 0.3", "viscous = 0.4", "simulation.damping.viscous"},
     {"materials.*.density", "density = 900.0", "density = 901.0", "materials.b.density"},
-    {"materials.*.normal_stiffness", "normal_stiffness = 8e5", "normal_stiffness = 9e5", "materials.b.normal_stiffness"},
+    {"materials.*.normal_stiffness", "normal_stiffness = 8e5", "normal_stiffness = 9e5",
+     "materials.b.normal_stiffness"},
     {"materials.*.shear_stiffness", "shear_stiffness = 4e5", "shear_stiffness = 3e5", "materials.b.shear_stiffness"},
     {"materials.*.friction", "friction = 0.25", "friction = 0.26", "materials.b.friction"},
     {"particles.position", "[1.5, 0.875]]", "[1.5, 0.876]]", "particles.position[3][1]"},
@@ -349,7 +355,8 @@ std::vector<change> const coupled_changes{
     {"fluid.sources[].flow", "flow = 1e-6", "flow = 2e-6", "fluid.sources[0].flow"},
     {"fluid.merge_conductance", "merge_conductance = 1e9\n", "", "fluid.merge_conductance"},
     {"fluid.duration", "merge_conductance = 1e9\n", "merge_conductance = 1e9\nduration = 5.0\n", "fluid.duration"},
-    {"fluid.minimum_pressure", "merge_conductance = 1e9\n", "merge_conductance = 1e9\nminimum_pressure = -5.0\n", "fluid.minimum_pressure"},
+    {"fluid.minimum_pressure", "merge_conductance = 1e9\n", "merge_conductance = 1e9\nminimum_pressure = -5.0\n",
+     "fluid.minimum_pressure"},
 };
 
 std::vector<change> const bare_changes{
@@ -409,18 +416,22 @@ TEST_CASE("each key changed at a restart is refused by its path, or may change",
     check_refused("restart_coupled", coupled, coupled_changes, seen);
     check_refused("restart_bare", bare, bare_changes, seen);
     // Keys that apply only with time_step = "auto" and strengths of materials.
-    auto strong = with(with(coupled, "time_step = 1e-6\n", "safety = 0.2\n"), "tensile_force = 1e8\nshear_force = 9e7\n", "");
+    auto strong =
+        with(with(coupled, "time_step = 1e-6\n", "safety = 0.2\n"), "tensile_force = 1e8\nshear_force = 9e7\n", "");
     strong = with(strong, "friction = 0.2\n", "friction = 0.2\ntensile_strength = 4e8\nshear_strength = 3e8\n");
-    check_refused("restart_strong", strong,
-                  {{"simulation.safety", "safety = 0.2", "safety = 0.3", "simulation.safety"},
-                   {"materials.*.tensile_strength", "tensile_strength = 4e8\n", "", "materials.a.tensile_strength"},
-                   {"materials.*.shear_strength", "shear_strength = 3e8", "shear_strength = 2e8", "materials.a.shear_strength"}},
-                  seen);
+    check_refused(
+        "restart_strong", strong,
+        {{"simulation.safety", "safety = 0.2", "safety = 0.3", "simulation.safety"},
+         {"materials.*.tensile_strength", "tensile_strength = 4e8\n", "", "materials.a.tensile_strength"},
+         {"materials.*.shear_strength", "shear_strength = 3e8", "shear_strength = 2e8", "materials.a.shear_strength"}},
+        seen);
     std::string const rule = "rule = \"when_needed\", interval = 50, on_broken_bond = false";
-    check_refused("restart_remeshing", with(coupled, "sources = [{ pore = 1, flow = 1e-6 }]\n", "remeshing = { " + rule + " }\n"),
+    check_refused("restart_remeshing",
+                  with(coupled, "sources = [{ pore = 1, flow = 1e-6 }]\n", "remeshing = { " + rule + " }\n"),
                   {{"fluid.remeshing.rule", rule, "rule = \"never\"", "fluid.remeshing.rule"},
                    {"fluid.remeshing.interval", "interval = 50", "interval = 60", "fluid.remeshing.interval"},
-                   {"fluid.remeshing.on_broken_bond", "broken_bond = false", "broken_bond = true", "fluid.remeshing.on_broken_bond"}},
+                   {"fluid.remeshing.on_broken_bond", "broken_bond = false", "broken_bond = true",
+                    "fluid.remeshing.on_broken_bond"}},
                   seen);
     check_refused("restart_rigid", rigid,
                   {{"fluid.aperture.value", "value = 1e-2", "value = 2e-2", "fluid.aperture.value"},
@@ -431,22 +442,26 @@ TEST_CASE("each key changed at a restart is refused by its path, or may change",
     auto hertz = with(with(coupled, "\"frictional_spring\"", "\"hertz_mindlin\""), "friction = 0.25",
                       "friction = 0.25\nyoung_modulus = 1e8\npoisson_ratio = 0.2");
     hertz = with(hertz, "friction = 0.3\n", "friction = 0.3\nyoung_modulus = 2e8\npoisson_ratio = 0.3\n");
-    hertz = with(with(hertz, "\"brittle_spring\"", "\"parallel_bond\""), "shear_force = 9e7", "bending_stiffness = 7e5");
-    check_refused("restart_hertz", hertz,
-                  {{"materials.*.young_modulus", "young_modulus = 1e8", "young_modulus = 1.5e8", "materials.b.young_modulus"},
-                   {"materials.*.poisson_ratio", "poisson_ratio = 0.2", "poisson_ratio = 0.25", "materials.b.poisson_ratio"},
-                   {"walls[].young_modulus", "young_modulus = 2e8", "young_modulus = 1e9", "walls[0].young_modulus"},
-                   {"walls[].poisson_ratio", "poisson_ratio = 0.3", "poisson_ratio = 0.35", "walls[0].poisson_ratio"},
-                   {"bonds.bending_stiffness", "7e5", "8e5", "bonds.bending_stiffness[0]"}},
-                  seen);
+    hertz =
+        with(with(hertz, "\"brittle_spring\"", "\"parallel_bond\""), "shear_force = 9e7", "bending_stiffness = 7e5");
+    check_refused(
+        "restart_hertz", hertz,
+        {{"materials.*.young_modulus", "young_modulus = 1e8", "young_modulus = 1.5e8", "materials.b.young_modulus"},
+         {"materials.*.poisson_ratio", "poisson_ratio = 0.2", "poisson_ratio = 0.25", "materials.b.poisson_ratio"},
+         {"walls[].young_modulus", "young_modulus = 2e8", "young_modulus = 1e9", "walls[0].young_modulus"},
+         {"walls[].poisson_ratio", "poisson_ratio = 0.3", "poisson_ratio = 0.35", "walls[0].poisson_ratio"},
+         {"bonds.bending_stiffness", "7e5", "8e5", "bonds.bending_stiffness[0]"}},
+        seen);
     // Keys compared by their effect: a file, the gap of touching particles, the dimension.
-    check_refused("restart_file", from_file,
-                  {{"particles.file", "position = [[0.0, 0.0], [1.0, 0.0]]\nradius = 0.5\nmaterial = \"a\"\nvelocity = [[0.0, 0.0], [0.0, 0.5]]",
-                    "file = \"list.csv\"", "particles.velocity[1][1]"},
-                   {"bonds.touching", "touching = true\ngap = 1e-5", "pairs = []", "bonds.pairs"},
-                   {"simulation.dimension",
-                    "steps = 3\ntime_step = 1e-6\n", "steps = 3\ntime_step = 1e-6\nreal = \"float\"\n", "simulation.real"}},
-                  seen);
+    check_refused(
+        "restart_file", from_file,
+        {{"particles.file",
+          "position = [[0.0, 0.0], [1.0, 0.0]]\nradius = 0.5\nmaterial = \"a\"\nvelocity = [[0.0, 0.0], [0.0, 0.5]]",
+          "file = \"list.csv\"", "particles.velocity[1][1]"},
+         {"bonds.touching", "touching = true\ngap = 1e-5", "pairs = []", "bonds.pairs"},
+         {"simulation.dimension", "steps = 3\ntime_step = 1e-6\n", "steps = 3\ntime_step = 1e-6\nreal = \"float\"\n",
+          "simulation.real"}},
+        seen);
     seen.insert("bonds.gap");            // compared by the pairs, as touching
     seen.insert("simulation.dimension"); // every point changes with it
     for (auto const& row : lacuna_run::keys) {
@@ -467,7 +482,8 @@ TEST_CASE("the same scenario written in another way continues", "[restart][check
     here.write("case.toml", coupled + "[output]\ncheckpoint_every = 3\n");
     REQUIRE(here.run("--quiet case.toml").status == 0);
     auto other = with(coupled, "radius = 0.5", "radius = [0.5, 0.5, 0.5, 0.5]");
-    other = with(other, "fix = [{ particles = [0], axes = \"xy\" }]", "fix = [{ particles = [0], axes = \"y\" }, { particles = [0], axes = \"x\" }]");
+    other = with(other, "fix = [{ particles = [0], axes = \"xy\" }]",
+                 "fix = [{ particles = [0], axes = \"y\" }, { particles = [0], axes = \"x\" }]");
     other = with(other, "steps = 3", "steps = 9\nthreads = 2\nguards = { motion_limit = 0.2 }");
     other = with(other, "shear_force = 9e7", "shear_force = [9e7, 9e7]");
     here.write("other.toml", other + "[output]\ndirectory = \"later\"\n");

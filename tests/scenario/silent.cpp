@@ -130,7 +130,8 @@ std::map<std::string_view, std::pair<char const*, char const*>> const values{
 /// Keys that change no byte of a healthy run: results do not depend on the number of threads, a step that may be
 /// unstable can be stable, a fluid that is not pulled does not tear, a mesh that fits stays, and guards do not act.
 bool is_exempt(std::string_view path) {
-    for (std::string_view const one : {"simulation.threads", "simulation.allow_unstable_step", "fluid.minimum_pressure"})
+    for (std::string_view const one :
+         {"simulation.threads", "simulation.allow_unstable_step", "fluid.minimum_pressure"})
         if (path == one) return true;
     return path.substr(0, 16) == "fluid.remeshing." || path.substr(0, 18) == "simulation.guards.";
 }
@@ -159,7 +160,8 @@ settings const wall{
     {"walls[].shear_stiffness", "5e5"},
     {"walls[].friction", "1e-3"},
 };
-settings const bonds{{"bonds.pairs", "[[0, 1]]"}, {"materials.*.tensile_strength", "1e5"}, {"materials.*.shear_strength", "1e5"}};
+settings const bonds{
+    {"bonds.pairs", "[[0, 1]]"}, {"materials.*.tensile_strength", "1e5"}, {"materials.*.shear_strength", "1e5"}};
 settings const water{
     {"fluid.bulk_modulus", "1e4"},
     {"fluid.conductivity", "1.0"},
@@ -222,7 +224,8 @@ outcome outcome_of(program::folder const& here, tree const& deck) {
     auto const ran = here.run("--quiet case.toml");
     outcome o{ran.status, ran.err, {}};
     for (std::string const& name : here.files())
-        if (name != "case.toml" && name != "out/checkpoint.bin") o.files += name + "\n" + program::read_file(here / name);
+        if (name != "case.toml" && name != "out/checkpoint.bin")
+            o.files += name + "\n" + program::read_file(here / name);
         else if (name != "case.toml") o.files += name + "\n";
     return o;
 }
@@ -242,7 +245,8 @@ void try_all_keys(std::string const& name, tree const& deck) {
     REQUIRE(before.status == 0);
     std::string silent;
     for (key const& row : keys) {
-        if (row.what == kind::table || row.what == kind::named || (row.what == kind::tables && !values.count(row.path))) continue;
+        if (row.what == kind::table || row.what == kind::named || (row.what == kind::tables && !values.count(row.path)))
+            continue;
         if (is_exempt(row.path)) continue;
         // A material may have values that this run does not use.
         std::string_view const path = row.path;
@@ -250,7 +254,8 @@ void try_all_keys(std::string const& name, tree const& deck) {
             bool soft = false;
             for (condition const& c : conditions) soft = soft || ((row.where & c.what) != 0 && *c.otherwise == '\0');
             if (soft && !deck.find(row.path)) continue;
-            if (soft && deck.find("materials.*.young_modulus") != nullptr && path.find("stiffness") != path.npos) continue;
+            if (soft && deck.find("materials.*.young_modulus") != nullptr && path.find("stiffness") != path.npos)
+                continue;
         }
         auto const found = values.find(row.path);
         INFO(row.path);
@@ -258,14 +263,18 @@ void try_all_keys(std::string const& name, tree const& deck) {
         tree changed = deck;
         auto const* now = deck.find(row.path);
         if (row.what == kind::tables && now != nullptr && now->list) continue;
-        std::string replacement = now != nullptr && now->value == found->second.first ? found->second.second : found->second.first;
+        std::string replacement =
+            now != nullptr && now->value == found->second.first ? found->second.second : found->second.first;
         // In lists the first number is changed.
-        if (replacement.empty()) replacement = now != nullptr ? "[[0.01" + now->value.substr(now->value.find_first_of(",]")) : "[]";
+        if (replacement.empty())
+            replacement = now != nullptr ? "[[0.01" + now->value.substr(now->value.find_first_of(",]")) : "[]";
         if (replacement[1] == '[' && now != nullptr && now->value[1] != '[') replacement.erase(0, 1);
         changed.set(row.path, replacement);
         outcome const after = outcome_of(here, changed);
-        bool const heard = after.status == 2 ? names_a_key(after.message) : after.status == 0 && after.files != before.files;
-        if (!heard) silent += std::string(row.path) + ": status " + std::to_string(after.status) + " " + after.message + "\n";
+        bool const heard =
+            after.status == 2 ? names_a_key(after.message) : after.status == 0 && after.files != before.files;
+        if (!heard)
+            silent += std::string(row.path) + ": status " + std::to_string(after.status) + " " + after.message + "\n";
     }
     INFO(silent);
     REQUIRE(silent.empty());
@@ -305,14 +314,18 @@ TEST_CASE("no key is silent: Hertzian spheres in space", "[keys][program]") {
                                 {"particles.velocity", "[[0.0, 0.0, 0.0], [0.0, 0.0, 0.0], [0.3, -0.5, 0.0]]"},
                                 {"particles.spin", "[[0.0, 0.0, 0.0], [0.0, 0.0, 0.0], [0.0, 0.0, 0.3]]"},
                                 {"loads[].force", "[10.0, 0.0, 0.0]"}}});
-    for (char const* key : {"normal_stiffness", "shear_stiffness"}) deck.below["materials"].below["matrix"].below.erase(key);
+    for (char const* key : {"normal_stiffness", "shear_stiffness"})
+        deck.below["materials"].below["matrix"].below.erase(key);
     try_all_keys("hertz", deck);
 }
 TEST_CASE("no key is silent: with fluid, explicit and implicit", "[keys][program]") {
     for (char const* solver : {"\"explicit\"", "\"implicit\""})
-        try_all_keys(solver[1] == 'e' ? "wet" : "wet_implicit", deck_of({dry, bonds, water, {{"fluid.solver", solver}}}));
+        try_all_keys(solver[1] == 'e' ? "wet" : "wet_implicit",
+                     deck_of({dry, bonds, water, {{"fluid.solver", solver}}}));
 }
-TEST_CASE("no key is silent: flow alone between particles", "[keys][program]") { try_all_keys("rigid", deck_of({rigid})); }
+TEST_CASE("no key is silent: flow alone between particles", "[keys][program]") {
+    try_all_keys("rigid", deck_of({rigid}));
+}
 TEST_CASE("no key is silent: a bare network", "[keys][program]") {
     tree deck = deck_of({network});
     deck.below["fluid"].below["network"].below["pores"].further = ", { volume = 2.0 }, { volume = 3.0 }";

@@ -17,12 +17,13 @@ namespace {
 
 /// Two spheres of radius 1 cm and E = 1 GPa meet, 0.1 m/s each.
 std::string two_spheres(std::string const& simulation, std::string const& stiffness) {
-    return "[simulation]\ndimension = 3\ncontact_law = \"hertz_mindlin\"\nbond_law = \"none\"\nend_time = 0.1\n" + simulation +
-           "[materials.steel]\ndensity = 2500.0\n" + stiffness +
+    return "[simulation]\ndimension = 3\ncontact_law = \"hertz_mindlin\"\nbond_law = \"none\"\nend_time = 0.1\n" +
+           simulation + "[materials.steel]\ndensity = 2500.0\n" + stiffness +
            "friction = 0.0\nyoung_modulus = 1e9\npoisson_ratio = 0.3\n"
            "[particles]\nposition = [[0.0, 0.0, 0.0], [0.03, 0.0, 0.0]]\nradius = 0.01\nmaterial = \"steel\"\n"
            "velocity = [[0.1, 0.0, 0.0], [-0.1, 0.0, 0.0]]\n"
-           "[[probes]]\nquantity = \"velocity.x\"\nparticle = 1\n[[probes]]\nquantity = \"contact.normal_force\"\npair = [0, 1]\n"
+           "[[probes]]\nquantity = \"velocity.x\"\nparticle = 1\n"
+           "[[probes]]\nquantity = \"contact.normal_force\"\npair = [0, 1]\n"
            "[output]\ndirectory = \"out\"\n";
 }
 
@@ -36,7 +37,9 @@ TEST_CASE("stiffnesses that no contact uses do not affect the time step", "[step
     std::string same;
     for (std::string const stiffness : {"", "1e3", "3e3", "5e3", "1e5", "1e12"}) {
         folder const here("step_" + stiffness);
-        here.write("a.toml", two_spheres("", stiffness.empty() ? "" : "normal_stiffness = " + stiffness + "\nshear_stiffness = 0.0\n"));
+        here.write(
+            "a.toml",
+            two_spheres("", stiffness.empty() ? "" : "normal_stiffness = " + stiffness + "\nshear_stiffness = 0.0\n"));
         auto const ran = here.run("--quiet a.toml");
         INFO(stiffness << ": " << ran.err);
         REQUIRE(ran.status == 0);
@@ -52,9 +55,10 @@ TEST_CASE("stiffnesses that no contact uses do not affect the time step", "[step
 
 TEST_CASE("without any stiffness there is no automatic time step", "[step][refusal]") {
     folder const here("step_none");
-    here.write("a.toml", "[simulation]\ncontact_law = \"none\"\nbond_law = \"none\"\nsteps = 1\n[materials.m]\ndensity = 1.0\n"
-                         "normal_stiffness = 1.0\nshear_stiffness = 1.0\nfriction = 0.0\n[particles]\nposition = [[0.0, 0.0]]\n"
-                         "radius = 1.0\nmaterial = \"m\"\n[output]\ndirectory = \"out\"\n");
+    here.write("a.toml",
+               "[simulation]\ncontact_law = \"none\"\nbond_law = \"none\"\nsteps = 1\n[materials.m]\ndensity = 1.0\n"
+               "normal_stiffness = 1.0\nshear_stiffness = 1.0\nfriction = 0.0\n[particles]\nposition = [[0.0, 0.0]]\n"
+               "radius = 1.0\nmaterial = \"m\"\n[output]\ndirectory = \"out\"\n");
     auto const ran = here.run("--quiet a.toml");
     CHECK(ran.status == 2);
     CHECK_THAT(ran.err, contains_text("simulation.time_step = \"auto\": must be a number of seconds"));

@@ -12,7 +12,8 @@
 
 namespace {
 
-std::string const head = "[simulation]\nsteps = 1\n[materials.m]\ndensity = 2500.0\nnormal_stiffness = 1e6\nshear_stiffness = 5e5\nfriction = 0.3\n";
+std::string const head = "[simulation]\nsteps = 1\n[materials.m]\ndensity = 2500.0\n"
+                         "normal_stiffness = 1e6\nshear_stiffness = 5e5\nfriction = 0.3\n";
 
 /// A hexagonal block of 10 rows of 10 discs of radius 0.001, in decimals.
 std::string block(double shift, std::string const& radius = "0.001") {
@@ -20,13 +21,16 @@ std::string block(double shift, std::string const& radius = "0.001") {
     for (int row = 0; row < 10; ++row)
         for (int column = 0; column < 10; ++column) {
             char position[80];
-            std::snprintf(position, sizeof position, "[%.17g, %.17g], ", shift + 0.002 * column + 0.001 * (row % 2), 0.001 * std::sqrt(3.0) * row);
+            std::snprintf(position, sizeof position, "[%.17g, %.17g], ", shift + 0.002 * column + 0.001 * (row % 2),
+                          0.001 * std::sqrt(3.0) * row);
             text += position;
         }
     return text + "]\nradius = " + radius + "\nmaterial = \"m\"\n[bonds]\ntouching = true\n";
 }
 
-std::size_t bonds(std::string const& text) { return lacuna_run::read_scenario(text, "case.toml", "").bonds.pairs.size(); }
+std::size_t bonds(std::string const& text) {
+    return lacuna_run::read_scenario(text, "case.toml", "").bonds.pairs.size();
+}
 
 std::string refusal(std::string const& text) {
     try {
@@ -49,15 +53,18 @@ TEST_CASE("discs of a lattice written in decimals touch without a gap", "[scenar
     CHECK(bonds(block(0, "0.000999999") + "gap = 2e-9\n") == 261);
 }
 
-TEST_CASE("a gap that bonds everything to everything is refused before it takes memory", "[scenario][touching][refusal]") {
-    CHECK_THAT(refusal(block(0) + "gap = 1e30\n"), contains_text("bonds.gap = 1e+30: must be at most ten times the median radius, 0.01 m"));
+TEST_CASE("a gap that bonds everything to everything is refused before it takes memory",
+          "[scenario][touching][refusal]") {
+    CHECK_THAT(refusal(block(0) + "gap = 1e30\n"),
+               contains_text("bonds.gap = 1e+30: must be at most ten times the median radius, 0.01 m"));
     CHECK_THAT(refusal(block(0) + "gap = 0.0101\n"), contains_text("bonds.gap = 0.0101: must be at most ten times"));
     CHECK(bonds(block(0) + "gap = 0.0099\n") > 1000);
     // Three hundred discs at almost the same position: 44,850 pairs.
     std::string heap = head + "[particles]\nposition = [";
     for (int k = 0; k < 300; ++k) heap += "[" + std::to_string(1e-6 * k) + ", 0.0], ";
     heap += "]\nradius = 0.001\nmaterial = \"m\"\n[bonds]\ntouching = true\ngap = 0.0\n";
-    CHECK_THAT(refusal(heap), contains_text("must be a gap within which there are at most 100 times as many pairs as particles"));
+    CHECK_THAT(refusal(heap),
+               contains_text("must be a gap within which there are at most 100 times as many pairs as particles"));
 }
 
 TEST_CASE("a huge disc hides the discs behind it and no others", "[scenario][touching]") {

@@ -50,6 +50,7 @@ struct tree {
 /// The key's path as in refusals.
 inline std::string refused_path(std::string path) {
     for (auto const& [old, replacement] : {std::pair<std::string, std::string>{"[]", "[0]"}, {"*", "matrix"}})
-        for (auto at = path.find(old); at != path.npos; at = path.find(old, at + replacement.size())) path.replace(at, old.size(), replacement);
+        for (auto at = path.find(old); at != path.npos; at = path.find(old, at + replacement.size()))
+            path.replace(at, old.size(), replacement);
     return path;
 }

@@ -39,7 +39,8 @@ struct spring_contact {
         return {distance};
     }
     template <class T, int Dim>
-    static history<T, Dim> hand_over(parameters<T> const&, pair_motion<T, Dim> const& m, T, vec<T, shear_dim<Dim>> const&) {
+    static history<T, Dim> hand_over(parameters<T> const&, pair_motion<T, Dim> const& m, T,
+                                     vec<T, shear_dim<Dim>> const&) {
         return {m.distance};
     }
     template <class T, int Dim>
@@ -88,9 +89,9 @@ struct idle_damping {
 };
 struct plain_integrator {
     template <bool WithEnergy, class Damping, class Real, int Dim, class PairForce>
-    static void advance(particle_store<Real, Dim>& store, std::size_t first, int count, Real dt, PairForce const& pair_force,
-                        typename Damping::parameters const& damping, record_column<Real> const* extra,
-                        motion_report<Real>& report) {
+    static void advance(particle_store<Real, Dim>& store, std::size_t first, int count, Real dt,
+                        PairForce const& pair_force, typename Damping::parameters const& damping,
+                        record_column<Real> const* extra, motion_report<Real>& report) {
         symplectic_euler::advance<WithEnergy, Damping>(store, first, count, dt, pair_force, damping, extra, report);
     }
 };
@@ -115,7 +116,8 @@ public:
         out.clear();
         for (std::size_t i = 0; i < points.size(); ++i)
             for (std::size_t j = i + 1; j < points.size(); ++j)
-                if (norm(points[j] - points[i]) <= radii[i] + radii[j] + margin) out.push_back({std::int32_t(i), std::int32_t(j)});
+                if (norm(points[j] - points[i]) <= radii[i] + radii[j] + margin)
+                    out.push_back({std::int32_t(i), std::int32_t(j)});
     }
 
 private:
@@ -126,7 +128,8 @@ struct wind {
     struct parameters {
         double force = 0.25; // N
         int interval = 1;
-        double bulk_modulus = 1, minimum_pressure = -std::numeric_limits<double>::infinity(), minimum_volume_fraction = 1e-3;
+        double bulk_modulus = 1, minimum_pressure = -std::numeric_limits<double>::infinity(),
+               minimum_volume_fraction = 1e-3;
         void validate(std::string const&) const {}
     };
     template <class Real, int Dim>
@@ -152,7 +155,8 @@ struct wind {
             }
         }
         Real critical_time_step() const { return std::numeric_limits<Real>::infinity(); }
-        std::array<vec<Real, Dim>, std::size_t(Dim) + 1> pore_tractions(std::size_t, points_view<Real, Dim>, Real const*) const {
+        std::array<vec<Real, Dim>, std::size_t(Dim) + 1> pore_tractions(std::size_t, points_view<Real, Dim>,
+                                                                        Real const*) const {
             return {};
         }
         Real storage_energy() const { return Real(0); }

@@ -30,7 +30,9 @@ struct held_by_spring : lacuna::default_model<Dim, Real> {
     using forces = lacuna::body_force<spring_and_drag>;
 };
 /// A force that acts along one direction only.
-inline constexpr auto lift = [](acted_particle<2> const& p) { return lacuna::vec<double, 2>{0, 0.5 * p.mass * p.time}; };
+inline constexpr auto lift = [](acted_particle<2> const& p) {
+    return lacuna::vec<double, 2>{0, 0.5 * p.mass * p.time};
+};
 struct lifted : lacuna::default_model<2> {
     using forces = lacuna::body_force<decltype(lift)>;
 };
@@ -87,7 +89,8 @@ TEMPLATE_TEST_CASE("a body force: harmonic motion, to the order of the scheme", 
     CHECK_THAT(run.energy().external, WithinAbs(run.energy().kinetic, rounding));
     CHECK_THAT(run.energy().residual(), WithinAbs(0.0, rounding));
     CHECK(run.energy().kinetic > 0.01);
-    CHECK_THAT(run.force(0)[0], WithinRel(-9 * (run.position(0)[0] - dt * run.velocity(0)[0]), sizeof(real) == 8 ? 1e-12 : 1e-4));
+    CHECK_THAT(run.force(0)[0],
+               WithinRel(-9 * (run.position(0)[0] - dt * run.velocity(0)[0]), sizeof(real) == 8 ? 1e-12 : 1e-4));
 }
 
 TEMPLATE_TEST_CASE("a body force's derivatives bound the time step",

@@ -89,10 +89,10 @@ TEST_CASE("the energy of a coupled run with flowing water adds up, and so do its
     sim.run(3000, cracks, with_energy{});
     auto const& e = sim.energy();
     REQUIRE(cracks.events().size() > 0);
-    INFO("kinetic " << e.kinetic << " rotation " << e.rotation << " strain " << e.strain << " in bonds " << e.bond_strain
-                    << " friction " << e.friction << " fracture " << e.fracture << " in shear " << e.shear_fracture
-                    << " stored in fluid " << e.fluid_storage << " viscous " << e.fluid_viscous << " out "
-                    << e.fluid_outflow << " fluid's work " << e.fluid_work << " external " << e.external
+    INFO("kinetic " << e.kinetic << " rotation " << e.rotation << " strain " << e.strain << " in bonds "
+                    << e.bond_strain << " friction " << e.friction << " fracture " << e.fracture << " in shear "
+                    << e.shear_fracture << " stored in fluid " << e.fluid_storage << " viscous " << e.fluid_viscous
+                    << " out " << e.fluid_outflow << " fluid's work " << e.fluid_work << " external " << e.external
                     << " residual " << e.residual());
     REQUIRE(e.friction > 0);
     REQUIRE(e.fluid_viscous > 0);

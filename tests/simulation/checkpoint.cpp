@@ -219,7 +219,8 @@ TEST_CASE("a damaged or foreign checkpoint is refused, and nothing changes", "[c
             REQUIRE_THAT(message, contains_text("checkpoint name: "));
             REQUIRE_THAT(message, contains_text(length < 8 ? "not a checkpoint" : "truncated"));
         }
-        REQUIRE_THAT(attempt(sound.substr(0, sound.size() / 2)), contains_text(file.path) && contains_text("truncated"));
+        REQUIRE_THAT(attempt(sound.substr(0, sound.size() / 2)),
+                     contains_text(file.path) && contains_text("truncated"));
     }
     SECTION("with any byte flipped") {
         for (std::size_t k = 0; k < sound.size(); ++k) {
@@ -311,7 +312,8 @@ TEST_CASE("a series of frames is that of the uninterrupted run, whether the chec
     };
     auto const files = [](std::string const& path) {
         std::map<std::string, std::string> all;
-        for (auto const& entry : fs::directory_iterator(path)) all[entry.path().filename().string()] = read_all(entry.path().string());
+        for (auto const& entry : fs::directory_iterator(path))
+            all[entry.path().filename().string()] = read_all(entry.path().string());
         return all;
     };
     auto const listed = [](std::string const& text) {

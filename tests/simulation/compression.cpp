@@ -64,7 +64,8 @@ TEMPLATE_TEST_CASE_SIG("biaxial and triaxial compression hold the sides and load
     while (sim.time() < 40) sim.step_with_energy();
     auto const loaded = test.state(sim);
     CHECK_THAT(loaded.strain[1], WithinRel(2e-4 * (19.5 - 0), 1e-2));
-    double const modulus = kn / (n + 1) * n * std::pow(n, Dim - 1) / (std::pow(n, Dim - 1) * (Dim == 2 ? thickness : 1.0));
+    double const modulus =
+        kn / (n + 1) * n * std::pow(n, Dim - 1) / (std::pow(n, Dim - 1) * (Dim == 2 ? thickness : 1.0));
     CHECK_THAT(loaded.stress[1] - 20, WithinRel(modulus * loaded.strain[1], 1e-2));
     for (int axis = 0; axis < Dim; ++axis)
         if (axis != 1) {

@@ -125,7 +125,8 @@ TEST_CASE("the same bits for any order of particles and bonds in the input", "[d
     lacuna::packing<double, 2> shuffled;
     for (std::size_t k = 0; k < n; ++k) shuffled.add(packing.position[old_number[k]], packing.radius[old_number[k]]);
     for (auto b = packing.bonds.rbegin(); b != packing.bonds.rend(); ++b)
-        shuffled.bonds.push_back({std::int32_t(std::size_t((*b)[1]) * 181 % n), std::int32_t(std::size_t((*b)[0]) * 181 % n)});
+        shuffled.bonds.push_back(
+            {std::int32_t(std::size_t((*b)[1]) * 181 % n), std::int32_t(std::size_t((*b)[0]) * 181 % n)});
     auto const other = play<plane>(shuffled, 1, false, [&](std::size_t k) { return old_number[k]; });
     for (std::size_t k = 0; k < n; ++k) {
         REQUIRE(other.position[k] == one.position[old_number[k]]);

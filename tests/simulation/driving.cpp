@@ -101,7 +101,8 @@ TEST_CASE("a torque accelerates the spin of a sphere, and its work is in the led
     sim.apply(0, {}, torque, 0.5);
     for (int step = 0; step < 1500; ++step) sim.step_with_energy();
     double const inertia = 0.4 * 0.25, seconds = 1.0 + 0.25;
-    for (int axis = 0; axis < 3; ++axis) REQUIRE_THAT(sim.spin(0)[axis], WithinAbs(torque[axis] / inertia * seconds, 3e-3));
+    for (int axis = 0; axis < 3; ++axis)
+        REQUIRE_THAT(sim.spin(0)[axis], WithinAbs(torque[axis] / inertia * seconds, 3e-3));
     REQUIRE_THAT(sim.torque(0)[2], WithinRel(-0.2, 1e-12));
     REQUIRE_THAT(sim.energy().residual(), WithinAbs(0, 1e-9 * sim.energy().largest()));
 }

@@ -38,7 +38,8 @@ lacuna::simulation<plane> squeezed_row(lacuna::simulation_parameters<plane> p) {
 TEST_CASE("a squeezed row of discs buckles at its growth rate", "[guards]") {
     // Three discs between two fixed ones: m y_j'' = P / d (2 y_j - y_{j-1} - y_{j+1}), P = k (2 r - d). The fastest
     // mode is (1, -sqrt 2, 1), with g^2 = (2 + sqrt 2) P / (m d): 21.97 / s.
-    double const force = 1e6 * 0.1, mass = 1000 * pi * 0.25, rate = std::sqrt((2 + std::sqrt(2.0)) * force / (mass * 0.9));
+    double const force = 1e6 * 0.1, mass = 1000 * pi * 0.25,
+                 rate = std::sqrt((2 + std::sqrt(2.0)) * force / (mass * 0.9));
     REQUIRE_THAT(rate, WithinRel(21.97, 1e-3));
     auto run = squeezed_row(springs<plane>(1e6, 0));
     auto const amplitude = [&] {
@@ -77,7 +78,8 @@ TEST_CASE("a bound of zero is no time step", "[guards]") {
     auto p = springs<plane_viscous>(1e6, 0);
     p.damping.ratio = 1e200;
     lacuna::simulation<plane_viscous> run(chain<2>(2), p);
-    REQUIRE_THROWS_WITH(run.resolve_time_step(), contains_text("time_step = ") && contains_text("leaves the range of double precision"));
+    REQUIRE_THROWS_WITH(run.resolve_time_step(),
+                        contains_text("time_step = ") && contains_text("leaves the range of double precision"));
     p.damping.ratio = 0.5;
     REQUIRE(lacuna::simulation<plane_viscous>(chain<2>(2), p).resolve_time_step() > 0);
 }
@@ -202,8 +204,10 @@ TEST_CASE("spins that run away are caught within 100 steps", "[guards]") {
         CHECK_THAT(text(space{}, share, 1e-10), contains_text("grow fourfold") && contains_text("reverse in nearly"));
     }
     // Spins that grow too fast for the growth watch.
-    CHECK_THAT(text(plane{}, 1.2, 1e-6), contains_text("rad in one step (limit 1)") && contains_text("above the stable one"));
-    CHECK_THAT(text(space{}, 1.2, 1e-6), contains_text("rad in one step (limit 1)") && contains_text("above the stable one"));
+    CHECK_THAT(text(plane{}, 1.2, 1e-6),
+               contains_text("rad in one step (limit 1)") && contains_text("above the stable one"));
+    CHECK_THAT(text(space{}, 1.2, 1e-6),
+               contains_text("rad in one step (limit 1)") && contains_text("above the stable one"));
 }
 
 TEST_CASE("with allow_unstable_step only the consequences of an unstable step end a run", "[guards]") {

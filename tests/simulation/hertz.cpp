@@ -109,7 +109,8 @@ TEST_CASE("Mindlin's stiffness, Coulomb's limit, and no energy from nothing", "[
     lacuna::pair_motion<double, 2> motion{0.2 - overlap, 0.1, 0.1, {1e-5}, 0};
     auto r = law::evaluate(p, motion, law::initial<double, 2>(0.2, 0.2));
     double const plane_modulus = young / (2 * (1 - nu * nu)), shear_modulus = young / (4 * (2 - nu) * (1 + nu));
-    REQUIRE_THAT(r.normal_force, WithinRel(-4.0 / 3 * plane_modulus * std::sqrt(radius) * std::pow(overlap, 1.5), 1e-12));
+    REQUIRE_THAT(r.normal_force,
+                 WithinRel(-4.0 / 3 * plane_modulus * std::sqrt(radius) * std::pow(overlap, 1.5), 1e-12));
     REQUIRE_THAT(r.shear_force[0], WithinRel(8 * shear_modulus * a * 1e-5, 1e-12));
     motion.slip = {1e-2};
     auto const slid = law::evaluate(p, motion, r.history);

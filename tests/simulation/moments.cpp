@@ -48,9 +48,11 @@ TEST_CASE("a tip-loaded beam of parallel bonds bends as in reference 4d", "[mome
         sim.apply(std::size_t(count), {0, force});
         sim.run(count == 5 ? 6000 : 30000);
         std::string const n = std::to_string(count);
-        REQUIRE_THAT(sim.position(std::size_t(count))[1] / force, WithinRel(reference("4d.with_bending_spring", n, "tip"), 1e-6));
+        REQUIRE_THAT(sim.position(std::size_t(count))[1] / force,
+                     WithinRel(reference("4d.with_bending_spring", n, "tip"), 1e-6));
         auto const e = sim.orientation(std::size_t(count));
-        REQUIRE_THAT(std::atan2(e[1], e[0]) / force, WithinRel(reference("4d.with_bending_spring", n, "tip_rotation"), 1e-6));
+        REQUIRE_THAT(std::atan2(e[1], e[0]) / force,
+                     WithinRel(reference("4d.with_bending_spring", n, "tip_rotation"), 1e-6));
     }
 }
 
@@ -71,8 +73,8 @@ lacuna::packing<double, Dim> uneven_chain(int count, double other) {
 
 /// Deflection and rotation of the tip of a cantilever of `count` beams under a transverse force, over the force.
 template <int Dim>
-std::array<double, 2> tip_of_cantilever(lacuna::packing<double, Dim> const& discs, lacuna::beam_bond::material const& bond,
-                                        double drag, long long steps) {
+std::array<double, 2> tip_of_cantilever(lacuna::packing<double, Dim> const& discs,
+                                        lacuna::beam_bond::material const& bond, double drag, long long steps) {
     using model = damped_beams_of<Dim, lacuna::beam_bond>;
     lacuna::simulation_parameters<model> p;
     p.materials[0].density = unit_density(Dim);
@@ -119,13 +121,16 @@ TEST_CASE("a cantilever of any number of elastic beams has the beam's deflection
             INFO(count << " beams, kappa = " << kappa);
             double const length = count, area = 1, inertia = 1.0 / 12;
             auto const tip = tip_of_cantilever(chain<2>(count + 1), {young, nu, never, never, 1, kappa}, 0.2, 8000);
-            CHECK_THAT(tip[0], WithinRel(length * length * length / (3 * young * inertia) + length / (kappa * shear * area), 1e-6));
+            CHECK_THAT(
+                tip[0],
+                WithinRel(length * length * length / (3 * young * inertia) + length / (kappa * shear * area), 1e-6));
             CHECK_THAT(tip[1], WithinRel(length * length / (2 * young * inertia), 1e-6));
         }
     {
         double const length = 4 * 0.8, area = pi * 0.09, inertia = pi * 0.0081 / 4;
         auto const tip = tip_of_cantilever(uneven_chain<3>(5, 0.3), {young, nu, never, never, 1, 0.8}, 0.12, 20000);
-        CHECK_THAT(tip[0], WithinRel(length * length * length / (3 * young * inertia) + length / (0.8 * shear * area), 1e-6));
+        CHECK_THAT(tip[0],
+                   WithinRel(length * length * length / (3 * young * inertia) + length / (0.8 * shear * area), 1e-6));
         CHECK_THAT(tip[1], WithinRel(length * length / (2 * young * inertia), 1e-6));
     }
 }
@@ -156,8 +161,10 @@ TEST_CASE("the bending stiffness is that of reference 4e", "[moment]") {
     // In 3D pi R^4 / 4 and pi R^4 / 2, with k = pi R^2.
     double const round = pi * 0.25;
     auto const q = lacuna::parallel_bond::combine({round, round}, {round, round}, 1.0);
-    REQUIRE_THAT(lacuna::parallel_bond::rotational_stiffness<3>(q, 0.5, 0.7).bending, WithinRel(pi * 0.0625 / 4, 1e-12));
-    REQUIRE_THAT(lacuna::parallel_bond::rotational_stiffness<3>(q, 0.5, 0.7).twisting, WithinRel(pi * 0.0625 / 2, 1e-12));
+    REQUIRE_THAT(lacuna::parallel_bond::rotational_stiffness<3>(q, 0.5, 0.7).bending,
+                 WithinRel(pi * 0.0625 / 4, 1e-12));
+    REQUIRE_THAT(lacuna::parallel_bond::rotational_stiffness<3>(q, 0.5, 0.7).twisting,
+                 WithinRel(pi * 0.0625 / 2, 1e-12));
 }
 
 TEST_CASE("a parallel bond breaks when the stress at its rim reaches the strength", "[moment]") {
@@ -174,7 +181,8 @@ TEST_CASE("a parallel bond breaks when the stress at its rim reaches the strengt
             auto h = law::initial<double, 2>(1 - axial / 1e3, 1);
             auto const r = law::evaluate(p, still, {{-over * moment / k}, 0}, h);
             REQUIRE_THAT(r.bending_moment[0], WithinRel(-over * moment, 1e-12));
-            REQUIRE_THAT(r.stored_energy, WithinRel(0.5 * (axial * axial / 1e3 + over * over * moment * moment / k), 1e-12));
+            REQUIRE_THAT(r.stored_energy,
+                         WithinRel(0.5 * (axial * axial / 1e3 + over * over * moment * moment / k), 1e-12));
             REQUIRE(r.broken == (over > 1));
             REQUIRE((!r.broken || r.broken_in_tension));
         }
@@ -184,15 +192,17 @@ TEST_CASE("a parallel bond breaks when the stress at its rim reaches the strengt
     lacuna::pair_motion<double, 3> ball{1, radius, radius, {}, 0};
     double const twist_limit = strength * pi * radius * radius * radius / 2;
     for (double const over : {0.999, 1.001}) {
-        auto const r = law::evaluate(q, ball, {{}, over * twist_limit / law::rotational_stiffness<3>(q, radius, radius).twisting},
-                                     law::initial<double, 3>(1, 1));
+        auto const r =
+            law::evaluate(q, ball, {{}, over * twist_limit / law::rotational_stiffness<3>(q, radius, radius).twisting},
+                          law::initial<double, 3>(1, 1));
         REQUIRE(r.broken == (over > 1));
         REQUIRE_FALSE(r.broken_in_tension);
     }
 }
 
 TEMPLATE_TEST_CASE_SIG("free beams conserve momenta and energy", "[moment]", ((int Dim, class Bond), Dim, Bond),
-                       (2, lacuna::parallel_bond), (3, lacuna::parallel_bond), (2, lacuna::beam_bond), (3, lacuna::beam_bond)) {
+                       (2, lacuna::parallel_bond), (3, lacuna::parallel_bond), (2, lacuna::beam_bond),
+                       (3, lacuna::beam_bond)) {
     lacuna::simulation_parameters<beams<Dim, Bond>> p;
     p.materials[0].density = unit_density(Dim);
     if constexpr (std::is_same_v<Bond, lacuna::parallel_bond>)
@@ -255,7 +265,10 @@ TEST_CASE("bonds with individual values", "[bond values]") {
             p.materials[0].density = 4 / pi;
             p.materials[0].bond.normal_stiffness = 1e3;
             p.bonds.resize(3);
-            p.bonds[1] = {.normal_stiffness = 500.0, .shear_stiffness = {}, .bending_stiffness = {}, .tensile_force = 2.0,
+            p.bonds[1] = {.normal_stiffness = 500.0,
+                          .shear_stiffness = {},
+                          .bending_stiffness = {},
+                          .tensile_force = 2.0,
                           .shear_force = {}};
             lacuna::simulation<chosen> sim(chain<2>(4), p);
             sim.fix(0);
@@ -322,7 +335,8 @@ TEST_CASE("the paper's bond with a moment", "[moment]") {
         REQUIRE_FALSE(r.broken_in_tension);
     }
     // Individual stiffness and strength.
-    auto const own = law::with_values<2>(p, {.normal_stiffness = 500, .bending_stiffness = 7, .tensile_force = 1}, 0.5, 0.7);
+    auto const own =
+        law::with_values<2>(p, {.normal_stiffness = 500, .bending_stiffness = 7, .tensile_force = 1}, 0.5, 0.7);
     REQUIRE_THAT(law::rotational_stiffness<2>(own, 0.5, 0.7).bending, WithinRel(7.0, 1e-12));
     REQUIRE(own.spring.normal_stiffness == 500);
     REQUIRE_THAT(own.spring.tensile_strength * area, WithinRel(1.0, 1e-12));

@@ -24,7 +24,8 @@ lacuna::packing<Real, 2> square(int side) {
 }
 
 template <class Model>
-std::size_t candidates(lacuna::packing<typename Model::real, Model::dim> const& p, lacuna::simulation_parameters<Model> const& s) {
+std::size_t candidates(lacuna::packing<typename Model::real, Model::dim> const& p,
+                       lacuna::simulation_parameters<Model> const& s) {
     return lacuna::simulation<Model>(p, s).pairs().neighbors().pairs().size();
 }
 
@@ -210,7 +211,8 @@ TEMPLATE_TEST_CASE("a crowd with outliers has the same bits with threads and aft
                    "[outliers][determinism][checkpoint]", plane, plane_in_single, ring) {
     auto one = crowd<TestType>(0.2), two = crowd<TestType>(0.2, 2), reversed = crowd<TestType>(0.2, 1, true);
     auto resumed = crowd<TestType>(0.2);
-    std::string const file = "outliers" + std::to_string(sizeof(typename TestType::real)) + std::to_string(TestType::domain::periodic) + ".bin";
+    std::string const file = "outliers" + std::to_string(sizeof(typename TestType::real)) +
+                             std::to_string(TestType::domain::periodic) + ".bin";
     for (int n = 0; n < 900; ++n) {
         one.step(), two.step(), reversed.step();
         if (n == 400) {
@@ -235,7 +237,8 @@ TEST_CASE("a particle with many more contacts than its neighbours gets the sum o
     p.time_step = 1e-6;
     lacuna::packing<double, 2> all;
     all.add({0, 0}, 10);
-    for (int k = 0; k < 60; ++k) all.add({(10.45 - 0.001 * k) * std::cos(0.1047 * k), (10.45 - 0.001 * k) * std::sin(0.1047 * k)}, 0.5);
+    for (int k = 0; k < 60; ++k)
+        all.add({(10.45 - 0.001 * k) * std::cos(0.1047 * k), (10.45 - 0.001 * k) * std::sin(0.1047 * k)}, 0.5);
     lacuna::simulation<plane> run(all, p);
     run.step();
     lacuna::vec<double, 2> sum{};

@@ -146,7 +146,8 @@ TEST_CASE("each number of interactions, damping, walls, apertures, flow", "[refu
                           {"x.merge_conductance", rule::most}};
     for (auto const& a : aperture) flow.push_back({"x.aperture." + a.name, a.law});
     check_named(lacuna::flow_parameters<lacuna::contact_force_aperture>{}, flow);
-    check_named(lacuna::cubic_crack_aperture::parameters{}, {{"x.residual_aperture", rule::positive}, {"x.hydraulic_factor", rule::open_share}});
+    check_named(lacuna::cubic_crack_aperture::parameters{},
+                {{"x.residual_aperture", rule::positive}, {"x.hydraulic_factor", rule::open_share}});
     check_named(lacuna::exponential_aperture::parameters{}, {{"x.zero_force_aperture", rule::positive},
                                                               {"x.residual_aperture", rule::bound},
                                                               {"x.decay_force", rule::positive},

@@ -74,7 +74,8 @@ struct state {
 template <class Model>
 state play(scenario const& s, bool breaks) {
     auto p = springs<Model>(s.contact_stiffness, 0.7 * s.contact_stiffness, s.friction, s.density, 0, 0);
-    p.materials[0].bond = {s.bond_stiffness, 0.7 * s.bond_stiffness, breaks ? s.strength : never, breaks ? s.strength : never};
+    p.materials[0].bond = {s.bond_stiffness, 0.7 * s.bond_stiffness, breaks ? s.strength : never,
+                           breaks ? s.strength : never};
     p.interactions.skin = s.skin;
     p.time_step = time_step;
     lacuna::simulation<Model> run(lacuna::convert_packing<typename Model::real>(s.discs), p);

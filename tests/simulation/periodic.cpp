@@ -29,8 +29,8 @@ struct cell : space {
 };
 
 template <class Model>
-lacuna::simulation_parameters<Model> undamped(double kn, double ks, double friction, double density, double tensile = never,
-                                              double shear = never) {
+lacuna::simulation_parameters<Model> undamped(double kn, double ks, double friction, double density,
+                                              double tensile = never, double shear = never) {
     auto p = springs<Model>(kn, ks, friction, density, tensile, shear);
     p.damping = {0};
     return p;
@@ -59,7 +59,9 @@ lacuna::simulation<Model> crowd(int threads, bool reversed = false) {
                 lacuna::vec<double, dim> position{};
                 for (int axis = 0; axis < dim; ++axis) position[axis] = at[axis] + 0.02 * noise(k, axis);
                 packing.add(position, 0.49 + 0.02 * noise(k, 3));
-                if (noise(k, 4) > -0.3) packing.bonds.push_back({std::int32_t(k), std::int32_t(x + 1 < size[0] ? k + 1 : k + 1 - std::size_t(size[0]))});
+                if (noise(k, 4) > -0.3)
+                    packing.bonds.push_back(
+                        {std::int32_t(k), std::int32_t(x + 1 < size[0] ? k + 1 : k + 1 - std::size_t(size[0]))});
             }
     if (reversed) {
         std::reverse(packing.position.begin(), packing.position.end());
@@ -94,7 +96,8 @@ TEST_CASE("a closed chain oscillates with the frequencies of a ring", "[periodic
         p.time_step = 0.01;
         lacuna::simulation<damped_ring> sim(closed_chain(count), p);
         double const speed = 1e-3;
-        for (std::size_t i = 0; i < sim.size(); ++i) sim.set_velocity(i, {speed * std::cos(2 * pi * n * double(i) / count), 0});
+        for (std::size_t i = 0; i < sim.size(); ++i)
+            sim.set_velocity(i, {speed * std::cos(2 * pi * n * double(i) / count), 0});
         double const omega = 2 * std::sqrt(k) * std::sin(pi * n / count);
         double const frequency = 2 * std::asin(0.5 * omega * p.time_step) / p.time_step;
         double worst = 0;
@@ -121,7 +124,9 @@ TEST_CASE("an endless strip of lattice has the lattice's C11", "[periodic]") {
             for (int c = 0; c < columns; ++c) strip.add({c + 0.5 * (r % 2), r * height}, 0.5);
         for (int r = 0; r < rows; ++r)
             for (int c = 0; c < columns; ++c) {
-                auto const at = [&](int row, int column) { return std::int32_t(row * columns + (column + columns) % columns); };
+                auto const at = [&](int row, int column) {
+                    return std::int32_t(row * columns + (column + columns) % columns);
+                };
                 strip.bonds.push_back({at(r, c), at(r, c + 1)});
                 if (r + 1 == rows) continue;
                 int const left = r % 2 == 0 ? c - 1 : c;
@@ -139,7 +144,8 @@ TEST_CASE("an endless strip of lattice has the lattice's C11", "[periodic]") {
             sim.apply(std::size_t((rows - 1) * columns + c), {0, force});
         }
         for (int step = 0; step < 4000; ++step) sim.step();
-        double const strain = (sim.position(std::size_t(rows * columns - 1))[1] - (rows - 1) * height) / ((rows - 1) * height);
+        double const strain =
+            (sim.position(std::size_t(rows * columns - 1))[1] - (rows - 1) * height) / ((rows - 1) * height);
         INFO("k_s / k_n = " << ratio);
         CHECK_THAT(force / strain, WithinRel(reference("3a.moduli_ks/kn=" + ratio, "C11"), 1e-5));
     }
@@ -238,8 +244,9 @@ TEST_CASE("invalid periods are refused by name", "[periodic][refusal]") {
 }
 
 TEST_CASE("a ring through the sides of a LAMMPS box", "[periodic]") {
-    std::string const text = "ring\n\n3 atoms\n3 bonds\n-1 2 xlo xhi\n0 9 ylo yhi\n\nAtoms # sphere\n\n1 1 1 2000 -0.5 1 0 0 0 0\n"
-                             "2 1 1 1000 0.5 1 0 0 0 0\n3 1 1 500 -1.5 1 0 1 0 0\n\nBonds\n\n1 1 1 2\n2 1 2 3\n3 1 3 1\n";
+    std::string const text =
+        "ring\n\n3 atoms\n3 bonds\n-1 2 xlo xhi\n0 9 ylo yhi\n\nAtoms # sphere\n\n1 1 1 2000 -0.5 1 0 0 0 0\n"
+        "2 1 1 1000 0.5 1 0 0 0 0\n3 1 1 500 -1.5 1 0 1 0 0\n\nBonds\n\n1 1 1 2\n2 1 2 3\n3 1 3 1\n";
     auto const list = lacuna::parse_lammps_data<2>(text, "f", {true, false});
     auto p = undamped<damped_ring>(100, 70, 0, 1);
     p.domain.period = list.packing.period;
@@ -251,5 +258,6 @@ TEST_CASE("a ring through the sides of a LAMMPS box", "[periodic]") {
         REQUIRE_THAT(sim.mass(k), WithinRel(list.density[k] * pi / 4, 1e-15));
     }
     p.domain.period[0] = 4;
-    REQUIRE_THROWS_WITH(lacuna::simulation<damped_ring>(list.packing, p), contains_text("domain.period = 4: must be that of the packing's box along this axis, 3"));
+    REQUIRE_THROWS_WITH(lacuna::simulation<damped_ring>(list.packing, p),
+                        contains_text("domain.period = 4: must be that of the packing's box along this axis, 3"));
 }

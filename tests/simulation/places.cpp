@@ -128,7 +128,8 @@ TEST_CASE("positions too far from the origin are refused", "[places]") {
         auto p = springs<type>(1e6, 5e5, 0.3, 2500);
         p.guards.resolution = guarded;
         return thrown_by([&] {
-            lacuna::simulation<type> sim(moved<typename type::real, type::dim>(chain<type::dim>(3, false), 2 * radius, at), p);
+            lacuna::simulation<type> sim(
+                moved<typename type::real, type::dim>(chain<type::dim>(3, false), 2 * radius, at), p);
         });
     };
     CHECK_THAT(refusal(single<2>{}, 100, 1e-3, true),
@@ -154,9 +155,10 @@ TEST_CASE("motion that is lost to rounding is reported", "[places]") {
                 sim.set_velocity(k, {0, 1e-3});
             else
                 sim.prescribe_velocity(k, {0, 1e-3}, how == 1 ? 0.0 : 1e-5);
-        CHECK_THAT(thrown_by([&] { sim.run(1000); }),
-                   contains_text("lost to rounding") && contains_text("(5e+06") && contains_text("(0, 0.001") &&
-                       contains_text("9.31322574") && contains_text("shift the body to the origin") && contains_text("double precision"));
+        CHECK_THAT(thrown_by([&] { sim.run(1000); }), contains_text("lost to rounding") && contains_text("(5e+06") &&
+                                                          contains_text("(0, 0.001") && contains_text("9.31322574") &&
+                                                          contains_text("shift the body to the origin") &&
+                                                          contains_text("double precision"));
         p.guards.resolution = false;
         lacuna::simulation<plane> unguarded(far, p);
         unguarded.set_velocity(0, {0, 1e-3});
@@ -232,9 +234,10 @@ TEST_CASE("messages name an initial overlap as such", "[places]") {
     two.add({0, 0}, 0.5);
     two.add({0.45, 0}, 0.5);
     auto p = springs<plane>(1, 1, 0, unit_density(2));
-    REQUIRE_THROWS_WITH(lacuna::simulation<plane>(two, p),
-                        contains_text("initial overlap of particles 1 and 2 at (0, 0) and (0.45, 0) m = 1.1 of the smaller radius") &&
-                            contains_text("must be at most 1 (guards.overlap_limit)"));
+    REQUIRE_THROWS_WITH(
+        lacuna::simulation<plane>(two, p),
+        contains_text("initial overlap of particles 1 and 2 at (0, 0) and (0.45, 0) m = 1.1 of the smaller radius") &&
+            contains_text("must be at most 1 (guards.overlap_limit)"));
     p.guards.overlap_limit = 1.2;
     REQUIRE_NOTHROW(lacuna::simulation<plane>(two, p));
     p.guards.overlap = false;

@@ -59,7 +59,8 @@ struct body {
     /// Name of a particle in messages: "3 at (1, 2)".
     std::string name(std::size_t k) const {
         std::string text = std::to_string(k) + " at (";
-        for (int axis = 0; axis < Dim; ++axis) text.append(axis == 0 ? "" : ", ").append(to_text(double(discs.position[k][axis])));
+        for (int axis = 0; axis < Dim; ++axis)
+            text.append(axis == 0 ? "" : ", ").append(to_text(double(discs.position[k][axis])));
         return text + ")";
     }
 };
@@ -92,16 +93,16 @@ void check() {
     INFO(Dim << "D, " << (sizeof(Real) == 4 ? "float" : "double"));
     auto const flat = row<Dim, Real>(6, 1);
     std::string const where = Dim == 2 ? "on one line" : "in one plane";
-    CHECK_THAT(flat.refusal(), contains_text("number of pores = 0") && contains_text(flat.name(0)) && contains_text(flat.name(5)) &&
-                                   contains_text(where));
+    CHECK_THAT(flat.refusal(), contains_text("number of pores = 0") && contains_text(flat.name(0)) &&
+                                   contains_text(flat.name(5)) && contains_text(where));
 
     auto apart = row<Dim, Real>(5, 40);
     vec<double, Dim> beside{};
     beside[0] = 200;
     beside[Dim - 1] = 30;
     apart.add(beside);
-    CHECK_THAT(apart.refusal(), contains_text("number of pores = 0") && contains_text(apart.name(4)) && contains_text(apart.name(5)) &&
-                                    contains_text("too far from each other"));
+    CHECK_THAT(apart.refusal(), contains_text("number of pores = 0") && contains_text(apart.name(4)) &&
+                                    contains_text(apart.name(5)) && contains_text("too far from each other"));
 
     auto few = row<Dim, Real>(Dim, 1);
     CHECK_THAT(few.refusal(), contains_text("particles around it, and there are " + std::to_string(Dim)));
@@ -181,7 +182,8 @@ TEST_CASE("a run that moves all particles onto a line ends at the next mesh, and
         INFO(bad.what());
         CHECK(bad.step() > 200);
         CHECK(bad.step() < 400);
-        CHECK_THAT(bad.what(), contains_text("new mesh of the pores after step ") && contains_text("number of pores = 0") &&
+        CHECK_THAT(bad.what(), contains_text("new mesh of the pores after step ") &&
+                                   contains_text("number of pores = 0") &&
                                    contains_text("from particle 1 at (0, 0) m to particle 0 at ("));
     }
 }

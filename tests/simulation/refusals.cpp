@@ -54,12 +54,12 @@ TEST_CASE("each bad parameter is refused by name", "[refusal]") {
          [](settings& p) -> double& { return p.materials[0].contact.shear_stiffness; }, not_negative},
         {"materials[0].contact.friction", [](settings& p) -> double& { return p.materials[0].contact.friction; },
          not_negative},
-        {"materials[0].bond.normal_stiffness", [](settings& p) -> double& { return p.materials[0].bond.normal_stiffness; },
-         positive},
-        {"materials[0].bond.shear_stiffness", [](settings& p) -> double& { return p.materials[0].bond.shear_stiffness; },
-         not_negative},
-        {"materials[0].bond.tensile_strength", [](settings& p) -> double& { return p.materials[0].bond.tensile_strength; },
-         limit},
+        {"materials[0].bond.normal_stiffness",
+         [](settings& p) -> double& { return p.materials[0].bond.normal_stiffness; }, positive},
+        {"materials[0].bond.shear_stiffness",
+         [](settings& p) -> double& { return p.materials[0].bond.shear_stiffness; }, not_negative},
+        {"materials[0].bond.tensile_strength",
+         [](settings& p) -> double& { return p.materials[0].bond.tensile_strength; }, limit},
         {"materials[0].bond.shear_strength", [](settings& p) -> double& { return p.materials[0].bond.shear_strength; },
          limit},
         {"thickness", [](settings& p) -> double& { return p.thickness; }, positive},
@@ -131,7 +131,10 @@ TEST_CASE("each bad packing is refused by the particle's or bond's name", "[refu
     REQUIRE_THAT(attempt([](pack& p) { p.density = {1, 1, nan_value}; }), contains_text("particle 2.density = nan"));
     REQUIRE_THAT(attempt([](pack& p) { p.bond_type = {0}; }), contains_text("packing.bond_type.size() = 1"));
     // Bonds of two types would become equal.
-    REQUIRE_THAT(attempt([](pack& p) { p.bond_type = {0, 2}; }), contains_text("parameters.bonds = none") && contains_text("types 1 and 3"));
+    REQUIRE_THAT(attempt([](pack& p) {
+                     p.bond_type = {0, 2};
+                 }),
+                 contains_text("parameters.bonds = none") && contains_text("types 1 and 3"));
     REQUIRE(attempt([](pack& p) { p.bond_type = {2, 2}; }) == "accepted");
     auto typed = chain<2>(3);
     typed.bond_type = {0, 1};
@@ -139,7 +142,10 @@ TEST_CASE("each bad packing is refused by the particle's or bond's name", "[refu
     by_type.bonds = lacuna::by_bond_type(typed, std::vector<lacuna::bond_values>{{}, {.normal_stiffness = 7.0}});
     REQUIRE(refusal([&] { lacuna::simulation<plane> run(typed, by_type); }) == "accepted");
     // A periodic packing in an open domain.
-    REQUIRE_THAT(attempt([](pack& p) { p.period = {3, 0}; }), contains_text("domain.period = 0: must be that of the packing's box") && contains_text("3"));
+    REQUIRE_THAT(attempt([](pack& p) {
+                     p.period = {3, 0};
+                 }),
+                 contains_text("domain.period = 0: must be that of the packing's box") && contains_text("3"));
     REQUIRE_THAT(attempt([](pack& p) { p.position[1] = p.position[0]; }), contains_text("bond 0.distance"));
     REQUIRE(attempt([](pack&) {}) == "accepted");
 }
@@ -202,7 +208,8 @@ TEST_CASE("a run that went wrong says where", "[unstable]") {
         same.add({7, 7}, 0.5);
         same.add({1, 1}, 0.5);
         same.add({1, 1}, 0.5);
-        CHECK_THROWS_WITH(lacuna::simulation<plane>(same, p), contains_text("particles 1 and 2 are at the same place (1, 1)"));
+        CHECK_THROWS_WITH(lacuna::simulation<plane>(same, p),
+                          contains_text("particles 1 and 2 are at the same place (1, 1)"));
     }
     {
         lacuna::packing<double, 2> two;

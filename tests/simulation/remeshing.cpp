@@ -331,9 +331,11 @@ TEST_CASE("the explicit flow's step is safe from the first step on, as throats o
         p.time_step = 0.8 * first;
         auto const drive = [&] { return make_four(p, 1e9, 0.5); };
         long long expected = 63;
-        while (limit_of_four(conductivity, {0.98 + 0.5 * p.time_step * double(expected), 1}) > p.time_step) expected += 64;
+        while (limit_of_four(conductivity, {0.98 + 0.5 * p.time_step * double(expected), 1}) > p.time_step)
+            expected += 64;
         auto sim = drive();
-        REQUIRE_THROWS_WITH(sim.run(5000), contains_text("the flow between pores allows") && contains_text("substeps = 0"));
+        REQUIRE_THROWS_WITH(sim.run(5000),
+                            contains_text("the flow between pores allows") && contains_text("substeps = 0"));
         REQUIRE(sim.steps() == expected + 1);
         p.flow.substeps = 0;
         auto careful = drive();

@@ -79,7 +79,8 @@ auto plain_parameters() {
     lacuna::vec<double, Model::dim> floor{}, up{};
     floor[1] = -0.5;
     up[1] = 1;
-    if constexpr (!Model::domain::periodic) p.walls = {{floor, up, p.materials[0].contact}, {-floor * 9.0, -up, p.materials[0].contact}};
+    if constexpr (!Model::domain::periodic)
+        p.walls = {{floor, up, p.materials[0].contact}, {-floor * 9.0, -up, p.materials[0].contact}};
     else p.domain.period[0] = 3;
     p.bonds.resize(2);
     for (auto& b : p.bonds) b.normal_stiffness = b.shear_stiffness = b.tensile_force = b.shear_force = 1e6;
@@ -155,8 +156,10 @@ std::vector<change<Model>> common_changes() {
     for (std::size_t m = 0; m < 2; ++m) {
         std::string const name = "materials[" + std::to_string(m) + "].";
         all.push_back({name + "density", [m](auto& p) { p.materials[m].density *= 2; }});
-        all.push_back({name + "contact.normal_stiffness", [m](auto& p) { p.materials[m].contact.normal_stiffness *= 2; }});
-        all.push_back({name + "contact.shear_stiffness", [m](auto& p) { p.materials[m].contact.shear_stiffness *= 2; }});
+        all.push_back(
+            {name + "contact.normal_stiffness", [m](auto& p) { p.materials[m].contact.normal_stiffness *= 2; }});
+        all.push_back(
+            {name + "contact.shear_stiffness", [m](auto& p) { p.materials[m].contact.shear_stiffness *= 2; }});
         all.push_back({name + "contact.friction", [m](auto& p) { p.materials[m].contact.friction += 0.1; }});
         all.push_back({name + "bond.normal_stiffness", [m](auto& p) { p.materials[m].bond.normal_stiffness *= 2; }});
         all.push_back({name + "bond.shear_stiffness", [m](auto& p) { p.materials[m].bond.shear_stiffness *= 2; }});
@@ -174,15 +177,19 @@ std::vector<change<Model>> common_changes() {
         all.push_back({"gravity[" + std::to_string(axis) + "]", [axis](auto& p) { p.gravity[axis] = -9.81; }});
     all.push_back({"fluid_density", [](auto& p) { p.fluid_density = 1; }});
     all.push_back({"interactions.skin", [](auto& p) { p.interactions.skin = 0.2; }});
-    all.push_back({"interactions.initial_contact_tolerance", [](auto& p) { p.interactions.initial_contact_tolerance = 0.3; }});
+    all.push_back(
+        {"interactions.initial_contact_tolerance", [](auto& p) { p.interactions.initial_contact_tolerance = 0.3; }});
     all.push_back({"interactions.contacts", [](auto& p) { p.interactions.contacts = false; }});
     for (std::size_t w = 0; w < (Model::domain::periodic ? 0 : 2); ++w) {
         std::string const name = "walls[" + std::to_string(w) + "].";
         for (int axis = 0; axis < Model::dim; ++axis) {
-            all.push_back({name + "point[" + std::to_string(axis) + "]", [=](auto& p) { p.walls[w].point[axis] += 1e-9; }});
-            all.push_back({name + "normal[" + std::to_string(axis) + "]", [=](auto& p) { p.walls[w].normal[axis] += 1e-9; }});
+            all.push_back(
+                {name + "point[" + std::to_string(axis) + "]", [=](auto& p) { p.walls[w].point[axis] += 1e-9; }});
+            all.push_back(
+                {name + "normal[" + std::to_string(axis) + "]", [=](auto& p) { p.walls[w].normal[axis] += 1e-9; }});
         }
-        all.push_back({name + "material.normal_stiffness", [w](auto& p) { p.walls[w].material.normal_stiffness *= 2; }});
+        all.push_back(
+            {name + "material.normal_stiffness", [w](auto& p) { p.walls[w].material.normal_stiffness *= 2; }});
         all.push_back({name + "material.shear_stiffness", [w](auto& p) { p.walls[w].material.shear_stiffness *= 2; }});
         all.push_back({name + "material.friction", [w](auto& p) { p.walls[w].material.friction += 0.1; }});
     }
@@ -261,11 +268,16 @@ TEST_CASE("particles, bonds and pores that differ are named", "[checkpoint][refu
         auto sim = filled<wet>(p, packing);
         return answer(sim);
     };
-    CHECK_THAT(after([](auto& q) { q.radius[4] = 0.49; }), contains_text("other particles: particles.radius[4] = 0.5, here 0.49"));
-    CHECK_THAT(after([](auto& q) { q.material[5] = 1; }), contains_text("other particles: particles.material[5] = 0, here 1"));
+    CHECK_THAT(after([](auto& q) { q.radius[4] = 0.49; }),
+               contains_text("other particles: particles.radius[4] = 0.5, here 0.49"));
+    CHECK_THAT(after([](auto& q) { q.material[5] = 1; }),
+               contains_text("other particles: particles.material[5] = 0, here 1"));
     CHECK_THAT(after([](auto& q) { q.density = {1000, 1000, 1000, 2000, 1000, 1000}; }),
                contains_text("other particles: particles.mass[3] = "));
-    CHECK_THAT(after([](auto& q) { q.add({5, 5}, 0.5); }), contains_text("particles.radius = 6 entries, here 7 entries"));
+    CHECK_THAT(after([](auto& q) {
+                   q.add({5, 5}, 0.5);
+               }),
+               contains_text("particles.radius = 6 entries, here 7 entries"));
     CHECK_THAT(after([](auto& q) { q.bonds[1] = {1, 4}; }), contains_text("other bonds: bonds[1][1] = 2, here 4"));
     CHECK_THAT(after([](auto& q) { q.position[3][0] += 1e-12; }), contains_text("particles at other positions"));
     CHECK(after([](auto&) {}) == "accepted");
@@ -279,9 +291,15 @@ TEST_CASE("particles, bonds and pores that differ are named", "[checkpoint][refu
         });
         return sim;
     };
-    auto const sealed = [](auto const&...) { return lacuna::throat_boundary<double>{lacuna::boundary_kind::sealed, 0}; };
-    auto const drained = [](auto const&...) { return lacuna::throat_boundary<double>{lacuna::boundary_kind::drained, 0}; };
-    auto const drained_higher = [](auto const&...) { return lacuna::throat_boundary<double>{lacuna::boundary_kind::drained, 5}; };
+    auto const sealed = [](auto const&...) {
+        return lacuna::throat_boundary<double>{lacuna::boundary_kind::sealed, 0};
+    };
+    auto const drained = [](auto const&...) {
+        return lacuna::throat_boundary<double>{lacuna::boundary_kind::drained, 0};
+    };
+    auto const drained_higher = [](auto const&...) {
+        return lacuna::throat_boundary<double>{lacuna::boundary_kind::drained, 5};
+    };
     lacuna::save_checkpoint(file, with_pores(sealed, 0));
     auto open = with_pores(drained, 0), pressed = with_pores(sealed, 3), same = with_pores(sealed, 0);
     CHECK_THAT(answer(open), contains_text("other pores"));
@@ -299,7 +317,8 @@ template <class Model>
 struct calls {
     using simulation = lacuna::simulation<Model>;
     static constexpr int dim = Model::dim;
-    double push = 3, ramp = 2e-6, speed = 0.01, spin = 0.2, pull = 0.02, plate_axis = 1, wall = 0.1, stress = 5, pressure = 7;
+    double push = 3, ramp = 2e-6, speed = 0.01, spin = 0.2, pull = 0.02, plate_axis = 1, wall = 0.1, stress = 5,
+           pressure = 7;
     bool hold_rotation = true;
 
     void loads(simulation& s) const {

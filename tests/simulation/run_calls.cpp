@@ -103,7 +103,8 @@ TEMPLATE_TEST_CASE("a wet packing has the same bits however its run is split int
 
     constexpr long long steps = 200;
     auto whole = wet_packing<TestType>(duration);
-    REQUIRE(inactive_throats(whole) == std::size_t(std::count_if(limits.begin(), limits.end(), [&](double l) { return l > middle; })));
+    REQUIRE(inactive_throats(whole) ==
+            std::size_t(std::count_if(limits.begin(), limits.end(), [&](double l) { return l > middle; })));
     whole.run(steps);
     std::size_t const inactive = inactive_throats(whole);
     REQUIRE(inactive > 0);

@@ -7,7 +7,8 @@ using namespace setups;
 
 namespace {
 
-lacuna::simulation_parameters<space> unit_springs_in_space(double tensile = never, double shear = never, double friction = 0) {
+lacuna::simulation_parameters<space> unit_springs_in_space(double tensile = never, double shear = never,
+                                                           double friction = 0) {
     // The bond's area is pi R^2: strengths are divided by it, so that they are limits in N.
     double const area = pi * 0.25;
     auto p = springs<space>(1, 1, friction, unit_density(3), tensile / area, shear / area);
@@ -29,7 +30,8 @@ TEST_CASE("mass and moment of inertia of a sphere", "[3d]") {
 
 TEST_CASE("two spheres collide head-on in any direction", "[3d][collision]") {
     // m_eff = 1/2 kg, k = 1 N/m: half a period pi / sqrt(2), deepest v / sqrt(2).
-    for (lacuna::vec<double, 3> const& n : {lacuna::vec<double, 3>{1, 0, 0}, lacuna::vec<double, 3>{0.36, -0.48, 0.8}}) {
+    for (lacuna::vec<double, 3> const& n :
+         {lacuna::vec<double, 3>{1, 0, 0}, lacuna::vec<double, 3>{0.36, -0.48, 0.8}}) {
         auto p = unit_springs_in_space(never, never, 0.5);
         lacuna::packing<double, 3> two;
         two.add({1, 2, 3}, 0.5);

@@ -59,7 +59,8 @@ void meet(double speed, double young) {
         strongest = std::max(strongest, force);
         touched = touched || force > 0;
     }
-    INFO("dim " << Model::dim << ", " << sizeof(real) << " bytes, v = " << speed << ", E = " << young << ", " << steps << " steps");
+    INFO("dim " << Model::dim << ", " << sizeof(real) << " bytes, v = " << speed << ", E = " << young << ", " << steps
+                << " steps");
     hertz_collision const exact(young, 0.005, sim.mass(0) / 2, 2 * speed);
     CHECK_THAT(-sim.velocity(0)[0] / speed, WithinAbs(1, 1e-3));
     CHECK_THAT(sim.velocity(1)[0] / speed, WithinAbs(1, 1e-3));
@@ -82,7 +83,9 @@ struct curved_contact {
     struct history {
         T deepest;
     };
-    static parameters<double> combine(material const& a, material const&, double) { return {a.linear, a.square, a.unloading}; }
+    static parameters<double> combine(material const& a, material const&, double) {
+        return {a.linear, a.square, a.unloading};
+    }
     template <class T, int Dim>
     static history<T, Dim> initial(T, T) {
         return {T(0)};
@@ -105,7 +108,8 @@ struct curved_contact {
         return p.unloading;
     }
     template <class T, int Dim>
-    static T stiffness(parameters<T> const& p, lacuna::pair_motion<T, Dim> const& m, history<T, Dim> const&) requires(States) {
+    static T stiffness(parameters<T> const& p, lacuna::pair_motion<T, Dim> const& m,
+                       history<T, Dim> const&) requires(States) {
         using lacuna::max;
         return p.linear + T(2) * p.square * max(m.touching_distance() - m.distance, T(0));
     }
@@ -139,7 +143,8 @@ bool run_until(Simulation& sim, long long most, std::function<bool(Simulation co
 } // namespace
 
 TEST_CASE("a chosen step resolves a Hertzian collision of a run that starts without contacts", "[step]") {
-    for (auto const& [speed, young] : {std::pair{0.1, 1e9}, std::pair{0.1, 1e6}, std::pair{5.0, 1e9}, std::pair{1e-3, 1e9}}) {
+    for (auto const& [speed, young] :
+         {std::pair{0.1, 1e9}, std::pair{0.1, 1e6}, std::pair{5.0, 1e9}, std::pair{1e-3, 1e9}}) {
         meet<elastic_spheres<3>>(speed, young);
         meet<elastic_spheres<2>>(speed, young);
     }
@@ -252,7 +257,8 @@ TEST_CASE("a step that is chosen, or grows, includes contacts that may form with
         lacuna::simulation<plane> sim(bed, p);
         sim.set_velocity(21, {-3.0, 0});
         sim.set_velocity(23, {-3.0, 0});
-        REQUIRE(run_until<lacuna::simulation<plane>>(sim, 1000000, [&](auto const& s) { return s.velocity(22)[0] < -2.9; }));
+        REQUIRE(run_until<lacuna::simulation<plane>>(sim, 1000000,
+                                                     [&](auto const& s) { return s.velocity(22)[0] < -2.9; }));
         sim.run(10);
         CHECK_THAT(sim.velocity(20)[0], WithinRel(-3.0, 0.02));
         CHECK_THAT(sim.velocity(22)[0], WithinRel(-3.0, 0.02));
@@ -277,8 +283,9 @@ TEST_CASE("a given step that contacts make unsafe stops the run with both number
         REQUIRE_THROWS_AS(meets(), lacuna::unstable_run);
         REQUIRE(sim.position(1)[0] == 1.1); // before they push each other
         REQUIRE(sim.position(0)[0] > 0.08);
-        REQUIRE_THROWS_WITH(sim.step(), contains_text("time step of 0.0016 s is above the stable limit, which is 0.0014142") &&
-                                            contains_text("contacts have formed"));
+        REQUIRE_THROWS_WITH(sim.step(),
+                            contains_text("time step of 0.0016 s is above the stable limit, which is 0.0014142") &&
+                                contains_text("contacts have formed"));
     }
     // Hertz: a step that is safe for a light contact, but not for a deep overlap under a load.
     using model = elastic_spheres<3>;
@@ -312,7 +319,8 @@ TEST_CASE("the step follows contacts, and limits are rarely computed in a run wi
     p.walls = {{{-1, 0}, {1, 0}, p.materials[0].contact}, {{23, 0}, {-1, 0}, p.materials[0].contact},
                {{0, -1}, {0, 1}, p.materials[0].contact}, {{0, 23}, {0, -1}, p.materials[0].contact}};
     lacuna::simulation<plane> sim(gas, p);
-    for (std::size_t k = 0; k < sim.size(); ++k) sim.set_velocity(k, {std::sin(12.9 * double(k)), std::cos(78.2 * double(k))});
+    for (std::size_t k = 0; k < sim.size(); ++k)
+        sim.set_velocity(k, {std::sin(12.9 * double(k)), std::cos(78.2 * double(k))});
     sim.run(2000);
     auto const before = sim.looks();
     sim.run(4000);
@@ -345,7 +353,8 @@ TEST_CASE("a user's contact law: the step uses the stiffness that the law states
     // largest; otherwise the law is refused.
     curved_contact<false>::material const grows{1e6, 1e7, 1e6};
     CHECK_THROWS_WITH(limit_of(curved<false, 2>{}, grows),
-                      contains_text("stiffness of the contact law") && contains_text("stiffness(parameters, pair_motion, history)"));
+                      contains_text("stiffness of the contact law") &&
+                          contains_text("stiffness(parameters, pair_motion, history)"));
     CHECK_NOTHROW(limit_of(curved<false, 2>{}, curved_contact<false>::material{1e6, 1e7, 5e6}));
     CHECK(limit_of(curved<true, 2>{}, curved_contact<true>::material{1e6, 1e7, 0}) < std::sqrt(2 / 1.2e6) * (1 + 1e-6));
 }
@@ -384,7 +393,8 @@ TEST_CASE("a run that is resumed in mid-flight adapts its step like the uninterr
         lacuna::packing<double, 2> some;
         for (int k = 0; k < 30; ++k) some.add({0.023 * (k % 6), 0.012 + 0.023 * (k / 6)}, 0.01);
         lacuna::simulation<model> sim(some, p);
-        for (std::size_t k = 0; k < 30; ++k) sim.set_velocity(k, {std::sin(12.9 * double(k)), -1 + std::cos(78.2 * double(k))});
+        for (std::size_t k = 0; k < 30; ++k)
+            sim.set_velocity(k, {std::sin(12.9 * double(k)), -1 + std::cos(78.2 * double(k))});
         return sim;
     };
     for (int const first : {37, 150, 700}) {

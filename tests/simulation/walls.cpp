@@ -193,8 +193,10 @@ TEST_CASE("bad walls, motions and servos are refused by name", "[walls][refusal]
     CHECK_THROWS_WITH(sim.servo_wall(0, {-1, 1, 1, 0.5, {}}), contains_text("wall 0.servo.stress = -1"));
     CHECK_THROWS_WITH(sim.servo_wall(0, {1, -1, 1, 0.5, {}}), contains_text("wall 0.servo.area = -1"));
     CHECK_THROWS_WITH(sim.servo_wall(0, {1, 1, 0, 0.5, {}}), contains_text("wall 0.servo.max_speed = 0"));
-    CHECK_THROWS_WITH(sim.servo_wall(0, {1, 1, 1, 1.5, {}}), contains_text("wall 0.servo.relaxation = 1.5: must be > 0 and <= 1"));
-    CHECK_THROWS_WITH(sim.servo_wall(0, {1, 0, 1, 0.5, {}}), contains_text("wall 0.servo.between = 0: must be two different walls"));
+    CHECK_THROWS_WITH(sim.servo_wall(0, {1, 1, 1, 1.5, {}}),
+                      contains_text("wall 0.servo.relaxation = 1.5: must be > 0 and <= 1"));
+    CHECK_THROWS_WITH(sim.servo_wall(0, {1, 0, 1, 0.5, {}}),
+                      contains_text("wall 0.servo.between = 0: must be two different walls"));
     CHECK_THROWS_WITH(sim.servo_wall(0, {1, 0, 1, 0.5, {{{0, 3}}}}), contains_text("wall 0.servo.between = 3"));
     sim.move_wall(0, along_y(-1e4));
     CHECK_THROWS_WITH(sim.step(), contains_text("a wall moved 4 of the smallest radius in one step (limit 0.1)"));

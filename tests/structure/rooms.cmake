@@ -181,6 +181,17 @@ foreach(program IN LISTS programs)
   endforeach()
 endforeach()
 
+# At most 120 columns. A character beyond ASCII counts by its bytes.
+file(GLOB_RECURSE sources RELATIVE "${ROOT}" "${ROOT}/include/*.[ch]pp" "${ROOT}/examples/*.[ch]pp"
+  "${ROOT}/tests/*.[ch]pp" "${ROOT}/bench/*.[ch]pp")
+foreach(source IN LISTS sources)
+  file(STRINGS "${ROOT}/${source}" long LENGTH_MINIMUM 121 LIMIT_COUNT 1 ENCODING UTF-8)
+  if(long)
+    string(REGEX REPLACE "[][;]" "," long "${long}")
+    list(APPEND problems "${source}: a line of more than 120 columns: '${long}'")
+  endif()
+endforeach()
+
 # In rounds: a header is settled when all headers that it includes are. Headers that never settle form a ring.
 set(settled "")
 set(unsettled ${headers})

@@ -97,6 +97,17 @@ try_program(cartilage/common/a.hpp cartilage/cellar/b.hpp "cartilage/common/ may
 try_program(cartilage/common/a.hpp ../study/b.hpp "must be a header of a folder of cartilage/")
 try_program(cartilage/cellar/a.hpp cartilage/common/b.hpp "there is no folder cartilage/cellar/")
 
+string(REPEAT "x" 117 line)
+foreach(source IN ITEMS include/lacuna/core/a.hpp examples/a/a.cpp tests/core/a.cpp bench/a.hpp)
+  math(EXPR number "${number} + 1")
+  write_header("${SCRATCH}/${number}" core/b.hpp)
+  set(text "// SPDX-License-Identifier: BSD-3-Clause\n#pragma once\n")
+  file(WRITE "${SCRATCH}/${number}/${source}" "${text}// ${line}\n")
+  expect("${SCRATCH}/${number}" "headers keep the rules")
+  file(WRITE "${SCRATCH}/${number}/${source}" "${text}// [;${line}\n")
+  expect("${SCRATCH}/${number}" "${source}: a line of more than 120 columns")
+endforeach()
+
 if(failures)
   message(FATAL_ERROR "${failures}")
 endif()

@@ -24,7 +24,8 @@ void require(bool holds, std::string const& what) {
 /// A program whose output is a terminal.
 class on_terminal {
 public:
-    on_terminal(std::vector<std::string> const& words, path const& folder) : terminal_(posix_openpt(O_RDWR | O_NOCTTY)) {
+    on_terminal(std::vector<std::string> const& words, path const& folder)
+        : terminal_(posix_openpt(O_RDWR | O_NOCTTY)) {
         require(terminal_ >= 0 && grantpt(terminal_) == 0 && unlockpt(terminal_) == 0, "no pseudo terminal");
         std::string const name = ptsname(terminal_);
         child_ = fork();
@@ -127,7 +128,8 @@ void check_silent(std::vector<std::string> const& words, path const& folder) {
     int const status = program.wait();
     require(status == 128 + SIGTERM || status == 0, "exit status " + std::to_string(status));
     auto const said = process::read_all(folder.string() + ".said");
-    require(said.find('\r') == said.npos && said.find(" left ") == said.npos, "it shows progress although its output is not a terminal:\n" + said);
+    require(said.find('\r') == said.npos && said.find(" left ") == said.npos,
+            "it shows progress although its output is not a terminal:\n" + said);
 }
 
 } // namespace

@@ -28,7 +28,9 @@ namespace {
 constexpr char const* free_by_default = "thickness,duration,matrix_links,wall_distance,load";
 
 /// Names of the files that a calibration writes.
-std::vector<std::string> calibration_results() { return {"calibration.html", "calibration.csv", "calibration.json", "best.choices"}; }
+std::vector<std::string> calibration_results() {
+    return {"calibration.html", "calibration.csv", "calibration.json", "best.choices"};
+}
 
 } // namespace
 
@@ -68,7 +70,8 @@ std::optional<calibrate_options> parse_calibrate_command_line(int argc, char con
     if (!highest.empty()) o.study.loads.highest_MPa = positive_number("--highest", highest, "a number of MPa");
     if (!(o.study.loads.highest_MPa >= 100 && o.study.loads.highest_MPa <= 1e4))
         refuse("--highest", highest, "a number of MPa from 100 to 10000");
-    o.evaluations = whole_number<std::size_t>("--evaluations", evaluations, 1, 100000, "a whole number from 1 to 100000");
+    o.evaluations =
+        whole_number<std::size_t>("--evaluations", evaluations, 1, 100000, "a whole number from 1 to 100000");
     for (std::string const& name : parts_of(names, ',')) {
         try {
             choice_field const& f = find_choice(name);

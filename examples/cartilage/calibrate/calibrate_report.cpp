@@ -111,10 +111,10 @@ std::string page_of(calibrate_options const& o, std::vector<calibrated_set> cons
         std::to_string(set.targets.size()) + " logarithms; a load out of range counts as a factor of 8); " +
         std::to_string(near_count(set)) + " of " + std::to_string(set.targets.size()) + " medians are within " +
         lacuna::to_text(aim_MPa) + " MPa of the paper's.");
-    page += html_paragraph(std::to_string(o.study.seeds) + " packings of each zone, the same for every set; loads up to " +
-                           lacuna::to_text(o.study.loads.highest_MPa) + " MPa to " +
-                           number_text("%.3g", 100 * o.study.loads.resolution) + " %" +
-                           (o.study.model.dry ? ", without pore fluid." : ", with pore fluid."));
+    page += html_paragraph(
+        std::to_string(o.study.seeds) + " packings of each zone, the same for every set; loads up to " +
+        lacuna::to_text(o.study.loads.highest_MPa) + " MPa to " + number_text("%.3g", 100 * o.study.loads.resolution) +
+        " %" + (o.study.model.dry ? ", without pore fluid." : ", with pore fluid."));
     std::vector<std::vector<std::string>> rows;
     for (target_result const& t : set.targets)
         rows.push_back({name_of(t), lacuna::to_text(t.paper), t.packings > 0 ? load_words(t.median) : "-",
@@ -126,7 +126,8 @@ std::string page_of(calibrate_options const& o, std::vector<calibrated_set> cons
                        rows);
     rows.clear();
     for (first_layer_count const& c : set.first_layers)
-        rows.push_back({std::string(lacuna::to_string(c.zone)), std::to_string(c.first) + " of " + std::to_string(c.packings)});
+        rows.push_back(
+            {std::string(lacuna::to_string(c.zone)), std::to_string(c.first) + " of " + std::to_string(c.packings)});
     page += html_table("Packings in which the first layer was the first to lose half of its bonds, in the run at the "
                        "capacity load",
                        {"zone", "packings"}, rows);
@@ -192,7 +193,8 @@ void print_set(std::FILE* out, std::size_t number, std::size_t of, calibrated_se
     for (choice_field const* f : free)
         std::fprintf(out, " %s=%s", std::string(f->name).c_str(), f->text(set.choices).c_str());
     std::fprintf(out, " |");
-    for (target_result const& t : set.targets) std::fprintf(out, " %s", t.packings > 0 ? load_words(t.median).c_str() : "-");
+    for (target_result const& t : set.targets)
+        std::fprintf(out, " %s", t.packings > 0 ? load_words(t.median).c_str() : "-");
     std::fprintf(out, "%s%s\n", set.why.empty() ? "" : " ", set.why.c_str());
     std::fflush(out);
 }

@@ -40,7 +40,8 @@ struct calibration_request {
 /// \return all sets in the order of their trial
 /// \throws std::invalid_argument for a free choice that is given twice or stated by the paper; std::runtime_error
 /// without NLopt
-std::vector<evaluation> calibrate(calibration_request const& request, std::function<double(choices const&)> const& misfit);
+std::vector<evaluation> calibrate(calibration_request const& request,
+                                  std::function<double(choices const&)> const& misfit);
 
 /// Index of the evaluation with the least misfit; the first of equal ones. \param all at least one
 std::size_t best_of(std::vector<evaluation> const& all);

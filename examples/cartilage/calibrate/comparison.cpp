@@ -107,9 +107,10 @@ std::vector<first_layer_count> first_layers_of(std::vector<packing_result> const
             });
             if (run == p.runs.end() || run->layers.empty()) continue;
             ++count.packings;
-            count.first += std::none_of(run->layers.begin() + 1, run->layers.end(), [&](load_run::layer_damage const& l) {
-                return l.half_broken_time && *l.half_broken_time < *run->capacity_time;
-            });
+            count.first +=
+                std::none_of(run->layers.begin() + 1, run->layers.end(), [&](load_run::layer_damage const& l) {
+                    return l.half_broken_time && *l.half_broken_time < *run->capacity_time;
+                });
         }
         if (count.packings > 0) counts.push_back(count);
     }

@@ -40,7 +40,9 @@ std::vector<named_change> changes_of(std::vector<variation> const& variations, l
         for (change_of_load const& c : v.changes)
             if (c.zone == zone && c.what == what) found.push_back({&v, &c});
     // Half the load counts as much as twice the load. A load below the range has -100 %.
-    auto const size = [](named_change const& n) { return std::fabs(std::log1p(std::max(n.change->change, -100.0) / 100)); };
+    auto const size = [](named_change const& n) {
+        return std::fabs(std::log1p(std::max(n.change->change, -100.0) / 100));
+    };
     std::stable_sort(found.begin(), found.end(),
                      [&](named_change const& a, named_change const& b) { return size(a) > size(b); });
     return found;
@@ -108,9 +110,10 @@ std::string sensitivity_csv(std::vector<variation> const& variations, choices co
 void write_sensitivity(std::string const& directory, study_options const& o, std::vector<packing_result> const& plain,
                        std::vector<variation> const& variations) {
     std::string page = page_head("Cartilage under load: sensitivity") + "<h1>Effect of the open choices</h1>\n";
-    page += html_paragraph("The effect of each open choice, which the paper does not state, on the loads of Table 3. "
-                           "One choice changes at a time; each packing is compared with the same packing of the base. Bars are "
-                           "medians of the changes, whiskers their 95 % intervals (bootstrap over packings).");
+    page += html_paragraph(
+        "The effect of each open choice, which the paper does not state, on the loads of Table 3. "
+        "One choice changes at a time; each packing is compared with the same packing of the base. Bars are "
+        "medians of the changes, whiskers their 95 % intervals (bootstrap over packings).");
     page += html_paragraph(std::to_string(o.seeds) + " packings of each zone, loads from " +
                            lacuna::to_text(o.loads.lowest_MPa) + " to " + lacuna::to_text(o.loads.highest_MPa) +
                            " MPa to " + number_text("%.3g", 100 * o.loads.resolution) + " %" +

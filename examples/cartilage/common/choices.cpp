@@ -91,16 +91,19 @@ void add_specimen_fields(std::vector<choice_field>& f) {
     layers.trials = {4, 8};
     layers.reason = "Only Fig. 9 shows the number of fibres.";
     f.push_back(std::move(layers));
-    f.push_back(number<&c::middle_fibre_length>("middle_fibre_length", "um",
-                                                {15, 300, "a number from 15 to 300", scale::logarithmic, {30, 120}, {20, 150}},
-                                                "The paper only says that the network of the middle zone is random."));
-    f.push_back(number<&c::deep_fraction>("deep_fraction", "of the height",
-                                          {0.1, 0.8, "a number from 0.1 to 0.8", scale::linear, {0.25, 0.45}, {0.2, 0.5}},
-                                          "The thickness of the zones of the whole specimen is not given."));
-    f.push_back(number<&c::surface_fraction>("surface_fraction", "of the height",
-                                             {0.1, 0.8, "a number from 0.1 to 0.8", scale::linear, {0.15, 0.45}, {0.15, 0.5}},
-                                             "The thickness of the zones of the whole specimen is not given."));
-    f.push_back(number<&c::fill>("fill", "area fraction", {0.6, 1, "a number from 0.6 to 1", scale::linear, {0.78}, {0.75, 0.9}},
+    f.push_back(number<&c::middle_fibre_length>(
+        "middle_fibre_length", "um", {15, 300, "a number from 15 to 300", scale::logarithmic, {30, 120}, {20, 150}},
+        "The paper only says that the network of the middle zone is random."));
+    f.push_back(
+        number<&c::deep_fraction>("deep_fraction", "of the height",
+                                  {0.1, 0.8, "a number from 0.1 to 0.8", scale::linear, {0.25, 0.45}, {0.2, 0.5}},
+                                  "The thickness of the zones of the whole specimen is not given."));
+    f.push_back(
+        number<&c::surface_fraction>("surface_fraction", "of the height",
+                                     {0.1, 0.8, "a number from 0.1 to 0.8", scale::linear, {0.15, 0.45}, {0.15, 0.5}},
+                                     "The thickness of the zones of the whole specimen is not given."));
+    f.push_back(number<&c::fill>("fill", "area fraction",
+                                 {0.6, 1, "a number from 0.6 to 1", scale::linear, {0.78}, {0.75, 0.9}},
                                  "The density of the free particles is not given."));
     f.push_back(number<&c::contact_tolerance>(
         "contact_tolerance", "of the smaller radius",
@@ -127,11 +130,12 @@ void add_interaction_fields(std::vector<choice_field>& f) {
     f.push_back(number<&c::matrix_links>("matrix_links", "of the fibres' strength",
                                          {0, 10, "a number from 0 (none) to 10", scale::linear, {0.5, 1}, {0, 3}},
                                          "The paper does not say whether fibres are bonded to free particles."));
-    f.push_back(stated(number<&c::friction>("friction", "", {0, 2, "a number from 0 to 2", scale::linear, {0, 0.5}, {0, 1}},
-                                            "Table 1 gives 0.1; varied to show its effect.")));
-    f.push_back(number<&c::local_damping>("local_damping", "of the force",
-                                          {0, 0.9, "a number from 0 (none) to 0.9", scale::linear, {0.2, 0.7}, {0, 0.8}},
-                                          "The paper mentions no damping, but without damping nothing comes to rest."));
+    f.push_back(
+        stated(number<&c::friction>("friction", "", {0, 2, "a number from 0 to 2", scale::linear, {0, 0.5}, {0, 1}},
+                                    "Table 1 gives 0.1; varied to show its effect.")));
+    f.push_back(number<&c::local_damping>(
+        "local_damping", "of the force", {0, 0.9, "a number from 0 (none) to 0.9", scale::linear, {0.2, 0.7}, {0, 0.8}},
+        "The paper mentions no damping, but without damping nothing comes to rest."));
 }
 
 void add_load_fields(std::vector<choice_field>& f) {
@@ -140,7 +144,8 @@ void add_load_fields(std::vector<choice_field>& f) {
                                     "The area that turns the load in MPa into a force on a particle is not given."));
     f.push_back(word<&c::load>("load", {"free", "platen"}, "free or platen",
                                "The paper's load is uniform; the experiment loads with a plate (Fig. 7)."));
-    f.push_back(number<&c::ramp_time>("ramp_time", "ns", {0, 1e3, "a number from 0 to 1000", scale::linear, {2, 8}, {0, 20}},
+    f.push_back(number<&c::ramp_time>("ramp_time", "ns",
+                                      {0, 1e3, "a number from 0 to 1000", scale::linear, {2, 8}, {0, 20}},
                                       "The paper does not say whether the load is sudden or ramped."));
     f.push_back(number<&c::wall_distance>("wall_distance", "diameters",
                                           {0, 100, "a number from 0 (confined) to 100", scale::linear, {0, 8}, {0, 10}},
@@ -149,35 +154,41 @@ void add_load_fields(std::vector<choice_field>& f) {
                                      {1e-3, 1e9, "a number from 0.001 to 1e9, or 0 (until quiet)", scale::logarithmic,
                                       {5, 20}, {1, 20}, 0},
                                      "The duration of the load is not given."));
-    f.push_back(number<&c::longest>("longest", "ns", {0.1, 1e4, "a number from 0.1 to 10000", scale::logarithmic, {20, 80}, {5, 80}},
+    f.push_back(number<&c::longest>("longest", "ns",
+                                    {0.1, 1e4, "a number from 0.1 to 10000", scale::logarithmic, {20, 80}, {5, 80}},
                                     "Time limit for specimens that do not become quiet."));
-    f.push_back(number<&c::quiet_fraction>("quiet_fraction", "of the largest kinetic energy",
-                                           {1e-8, 1, "a number from 1e-8 to 1", scale::logarithmic, {1e-4, 0.01}, {1e-5, 0.1}},
-                                           "The criterion of equilibrium is not given."));
-    f.push_back(number<&c::quiet_time>("quiet_time", "ns", {0, 1e4, "a number from 0 to 10000", scale::linear, {5, 40}, {0, 40}},
+    f.push_back(
+        number<&c::quiet_fraction>("quiet_fraction", "of the largest kinetic energy",
+                                   {1e-8, 1, "a number from 1e-8 to 1", scale::logarithmic, {1e-4, 0.01}, {1e-5, 0.1}},
+                                   "The criterion of equilibrium is not given."));
+    f.push_back(number<&c::quiet_time>("quiet_time", "ns",
+                                       {0, 1e4, "a number from 0 to 10000", scale::linear, {5, 40}, {0, 40}},
                                        "The time without breaks that counts as equilibrium is not given."));
 }
 
 void add_fluid_fields(std::vector<choice_field>& f) {
     using c = choices;
     f.push_back(of_fluid(number<&c::conductivity>(
-        "conductivity", "m/(s Pa)", {1e-15, 1e3, "a number from 1e-15 to 1000", scale::logarithmic, {1e-3, 83}, {1e-12, 100}},
+        "conductivity", "m/(s Pa)",
+        {1e-15, 1e3, "a number from 1e-15 to 1000", scale::logarithmic, {1e-3, 83}, {1e-12, 100}},
         "Table 2's conductivity factor 1e-9 has no unit; water has 1/(12 mu) = 83 m/(s Pa).")));
-    f.push_back(of_fluid(number<&c::aperture>("aperture", "nm",
-                                              {0.1, 1e4, "a number from 0.1 to 10000", scale::logarithmic, {1, 100}, {1, 1000}},
-                                              "The aperture a of eq. 14 at zero force is not given.")));
-    f.push_back(of_fluid(number<&c::half_force>("half_force", "N",
-                                                {1e-9, 1, "a number from 1e-9 to 1", scale::logarithmic, {1e-5, 1e-3}, {1e-6, 1e-2}},
-                                                "The effect of a force on the aperture is not given.")));
-    f.push_back(of_fluid(number<&c::gap_factor>("gap_factor", "", {0, 1, "a number from 0 to 1", scale::linear, {0}, {0, 1}},
-                                                "The effect of a gap on the aperture is not given.")));
+    f.push_back(of_fluid(number<&c::aperture>(
+        "aperture", "nm", {0.1, 1e4, "a number from 0.1 to 10000", scale::logarithmic, {1, 100}, {1, 1000}},
+        "The aperture a of eq. 14 at zero force is not given.")));
+    f.push_back(of_fluid(number<&c::half_force>(
+        "half_force", "N", {1e-9, 1, "a number from 1e-9 to 1", scale::logarithmic, {1e-5, 1e-3}, {1e-6, 1e-2}},
+        "The effect of a force on the aperture is not given.")));
+    f.push_back(
+        of_fluid(number<&c::gap_factor>("gap_factor", "", {0, 1, "a number from 0 to 1", scale::linear, {0}, {0, 1}},
+                                        "The effect of a gap on the aperture is not given.")));
     f.push_back(of_fluid(number<&c::merge_conductance>(
         "merge_conductance", "m^3/(s Pa)",
         {1e-40, 1, "a number from 1e-40 to 1, or inf (none)", scale::logarithmic, {1e-27}, {1e-32, 1e-20}, infinity},
         "The conductance above which pores merge (Fig. 5b) is not given.")));
     f.push_back(of_fluid(number<&c::minimum_pressure>(
         "minimum_pressure", "Pa",
-        {-1e12, 0, "a number from -1e12 to 0, or -inf (the fluid never tears)", scale::linear, {0}, {-1e7, 0}, -infinity},
+        {-1e12, 0, "a number from -1e12 to 0, or -inf (the fluid never tears)", scale::linear, {0}, {-1e7, 0},
+         -infinity},
         "The paper does not say whether the water can be in tension.")));
     f.push_back(of_fluid(word<&c::drainage>("drainage", {"top_and_sides", "top", "sealed"},
                                             "top_and_sides, top or sealed",
@@ -204,7 +215,8 @@ double value_of(choice_field const& f, std::string_view text) {
     if (f.type == kind::word) {
         for (std::size_t k = 0; k < f.words.size(); ++k)
             if (f.words[k] == text) return double(k);
-        lacuna::refuse(f.name, word.empty() ? "''" : word, std::string(f.rule) + suggestion(word, {f.words.begin(), f.words.end()}));
+        lacuna::refuse(f.name, word.empty() ? "''" : word,
+                       std::string(f.rule) + suggestion(word, {f.words.begin(), f.words.end()}));
     }
     auto const value = lacuna::number_of(word);
     bool const whole = f.type != kind::count || (value && *value == std::floor(*value));

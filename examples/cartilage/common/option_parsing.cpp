@@ -56,7 +56,8 @@ choices read_choices(model_arguments const& args) {
             throw usage_error(std::string("--set: ") + bad.what());
         }
     }
-    if (!args.duration.empty()) c.duration = positive_number("--duration", args.duration, "a number of nanoseconds > 0");
+    if (!args.duration.empty())
+        c.duration = positive_number("--duration", args.duration, "a number of nanoseconds > 0");
     validate(c);
     return c;
 }
@@ -76,7 +77,8 @@ double positive_number(char const* option, std::string const& word, char const* 
 bool parse_arguments(CLI::App& app, int argc, char const* const* argv) {
     auto const version = programs::version_text("cartilage");
     app.set_version_flag("--version", version);
-    for (auto* command : app.get_subcommands([](CLI::App const*) { return true; })) command->set_version_flag("--version", version);
+    for (auto* command : app.get_subcommands([](CLI::App const*) { return true; }))
+        command->set_version_flag("--version", version);
     try {
         return programs::parse(app, argc, argv);
     } catch (std::invalid_argument const& bad) {
@@ -104,10 +106,12 @@ void add_model_options(CLI::App& app, model_arguments& args) {
     app.footer(choices_help());
     app.add_option("--length", args.length, "length of the specimen, horizontal, um (from the choice domain: 120)")
         ->type_name("UM");
-    app.add_option("--height", args.height, "height of the specimen, um (from the choice domain: 300)")->type_name("UM");
-    app.add_option("--preset", args.preset,
-                   "literal: as the paper states; lattice: equal radii on lattices, nothing random; calibrated: nearest to "
-                   "the paper's loads, for --dry (literal)")
+    app.add_option("--height", args.height, "height of the specimen, um (from the choice domain: 300)")
+        ->type_name("UM");
+    app.add_option(
+           "--preset", args.preset,
+           "literal: as the paper states; lattice: equal radii on lattices, nothing random; calibrated: nearest to "
+           "the paper's loads, for --dry (literal)")
         ->type_name("NAME");
     app.add_option("--choices", args.file, "file of choices that differ from the preset, one 'name = value' a line")
         ->type_name("FILE");

@@ -11,7 +11,8 @@
 
 namespace cartilage {
 
-unfinished_mark::unfinished_mark(lacuna::run_directory& out, std::string const& command) : out_(out), command_(command) {
+unfinished_mark::unfinished_mark(lacuna::run_directory& out, std::string const& command)
+    : out_(out), command_(command) {
     // Complete results of an earlier command stay until new ones replace them, so they must not get a mark.
     if (out.results().empty() || exists()) write("not yet");
 }

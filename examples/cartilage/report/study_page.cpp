@@ -129,10 +129,11 @@ std::string tables(study_result const& study, std::vector<table3_cell> const& ce
                        {"load", "packings", "invalid", "none", "median", "quartiles", "95 % of the median", "paper",
                         "paper's percentile"},
                        full);
-    return text + paragraph("None: packings that hold at the highest load; their load counts as infinite. Invalid: "
-                            "packings whose load no valid run decides; they do not count. The interval of the median is "
-                            "a percentile bootstrap over packings. The percentile is the share of packings below the "
-                            "paper's load.");
+    return text +
+           paragraph("None: packings that hold at the highest load; their load counts as infinite. Invalid: "
+                     "packings whose load no valid run decides; they do not count. The interval of the median is "
+                     "a percentile bootstrap over packings. The percentile is the share of packings below the "
+                     "paper's load.");
 }
 
 std::string limits(study_result const& study, std::vector<table3_cell> const& cells) {
@@ -152,8 +153,8 @@ std::string limits(study_result const& study, std::vector<table3_cell> const& ce
     lines.push_back(
         "The median damage is drawn where at least half of the packings have runs to the end on both sides. It leaves "
         "out runs that stopped early, at high loads.");
-    lines.push_back("Where t √P is constant, a load depends on the duration of the runs. First cracks within 2 ns come "
-                    "from elastic waves.");
+    lines.push_back("Where t √P is constant, a load depends on the duration of the runs. First cracks within 2 ns "
+                    "come from elastic waves.");
     lines.push_back("Snapshots and fronts are single runs of one packing each, not medians.");
     std::string text = heading("Limits") + "<ul>\n";
     for (std::string const& line : lines) text += "<li>" + html_text(line) + "</li>\n";

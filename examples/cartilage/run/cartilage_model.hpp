@@ -52,12 +52,12 @@ std::unique_ptr<lacuna::simulation<Model>> load_specimen(specimen const& s, opti
 } // namespace cartilage
 
 // The larger part of each model is compiled only once, in models.cpp and models_beam.cpp.
-#define CARTILAGE_INSTANTIATE(Model, as)                                                                                \
-    as template std::unique_ptr<lacuna::simulation<cartilage::Model>> cartilage::load_specimen(                         \
+#define CARTILAGE_INSTANTIATE(Model, as)                                                                               \
+    as template std::unique_ptr<lacuna::simulation<cartilage::Model>> cartilage::load_specimen(                        \
         cartilage::specimen const&, cartilage::options const&);                                                        \
-    as template void lacuna::explicit_stepper<cartilage::Model>::step<true>();                                          \
-    as template void lacuna::step_clock<cartilage::Model>::resolve(lacuna::simulation_state<cartilage::Model>&);        \
-    as template lacuna::time_step_limits lacuna::step_clock<cartilage::Model>::limits(                                  \
+    as template void lacuna::explicit_stepper<cartilage::Model>::step<true>();                                         \
+    as template void lacuna::step_clock<cartilage::Model>::resolve(lacuna::simulation_state<cartilage::Model>&);       \
+    as template lacuna::time_step_limits lacuna::step_clock<cartilage::Model>::limits(                                 \
         lacuna::simulation_state<cartilage::Model> const&) const;
 CARTILAGE_INSTANTIATE(dry_model, extern)
 CARTILAGE_INSTANTIATE(wet_model, extern)

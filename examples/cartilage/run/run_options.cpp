@@ -74,9 +74,11 @@ std::optional<options> parse_command_line(int argc, char const* const* argv, std
     run.add_option("--load", args.load, "pressure on the top row, MPa")->required()->type_name("MPA");
     add_run_options(run, args);
     run.add_option("--time-step", args.time_step, "ps (0.4 of the rigorous bound)")->type_name("PS");
-    run.add_flag("--allow-unstable-step", args.allow_unstable_step, "run even with a time step above the rigorous bound");
+    run.add_flag("--allow-unstable-step", args.allow_unstable_step,
+                 "run even with a time step above the rigorous bound");
     run.add_option("--threads", args.threads, "1 to 1024; the results do not depend on it (1)")->type_name("N");
-    run.add_option("--picture-every", args.picture_every, "a damage picture every STEPS steps (none)")->type_name("STEPS");
+    run.add_option("--picture-every", args.picture_every, "a damage picture every STEPS steps (none)")
+        ->type_name("STEPS");
 
     CLI::App& pack = *app.add_subcommand("pack", "Build and draw a specimen, and print its statistics");
     add_specimen_options(pack, args);

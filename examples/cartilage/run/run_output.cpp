@@ -40,8 +40,8 @@ std::string number(char const* format, double v) { return lacuna::formatted(form
 } // namespace
 
 std::vector<std::string> run_results() {
-    return {"summary.json", "statistics.json", "cracks.csv", "packing.png", "packing.svg", "damage.png", "damage.svg", "damage-#.png",
-            "damage-#.svg"};
+    return {"summary.json", "statistics.json", "cracks.csv",   "packing.png", "packing.svg",
+            "damage.png",   "damage.svg",      "damage-#.png", "damage-#.svg"};
 }
 
 void write_summary(std::string const& path, options const& o, run_result const& r) {
@@ -95,7 +95,9 @@ void write_summary(std::string const& path, options const& o, run_result const& 
     write_whole(path, json.text());
 }
 
-std::string crack_heading() { return "step,time_s,bond,first,second,fibre,mode,x_m,y_m,normal_force_N,shear_force_N,energy_J\n"; }
+std::string crack_heading() {
+    return "step,time_s,bond,first,second,fibre,mode,x_m,y_m,normal_force_N,shear_force_N,energy_J\n";
+}
 
 std::string crack_line(crack_record const& c) {
     std::string text = std::to_string(c.step) + "," + lacuna::to_text(c.time);

@@ -31,7 +31,8 @@ public:
 
     watch(specimen const& s, options const& o, lacuna::run_directory& out, lacuna::progress_options const& progress,
           ending& end, run_result& result)
-        : specimen_(s), options_(o), out_(out), log_(out.file("cracks.csv"), crack_heading()), progress_(progress), ending_(end), result_(result) {}
+        : specimen_(s), options_(o), out_(out), log_(out.file("cracks.csv"), crack_heading()), progress_(progress),
+          ending_(end), result_(result) {}
 
     template <class Event, class Simulation>
     void on_break(Event const& event, Simulation const&) {

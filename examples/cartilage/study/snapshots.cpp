@@ -45,7 +45,8 @@ private:
     /// Adds the mean vertical stress of each layer, Pa: the sum of force times branch vector over the layer's volume. A
     /// branch that crosses several layers counts in each with its part inside.
     template <class Simulation, class Law, class Real>
-    void add_stress(Simulation const& sim, lacuna::pair_table<Law, Real, 2> const& pairs, std::vector<double>& stress) const {
+    void add_stress(Simulation const& sim, lacuna::pair_table<Law, Real, 2> const& pairs,
+                    std::vector<double>& stress) const {
         auto const& store = sim.particles();
         for (std::size_t slot = 0; slot < pairs.slots(); ++slot) {
             if (pairs.is_padding(slot, store.size())) continue;

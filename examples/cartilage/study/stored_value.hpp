@@ -25,7 +25,9 @@ public:
 
     /// \throws std::invalid_argument "path = value: must be rule"
     [[noreturn]] void refuse(std::string const& rule) const {
-        std::string text = value_ == nullptr ? "(missing)" : value_->is_structured() ? "(a list or an object)" : value_->dump();
+        std::string text = value_ == nullptr         ? "(missing)"
+                           : value_->is_structured() ? "(a list or an object)"
+                                                     : value_->dump();
         if (text.size() > 60) text = text.substr(0, 57) + "...";
         lacuna::refuse(path(), text, rule);
     }

@@ -141,7 +141,8 @@ study_result run_study(study_options const& o, pool_report& report) {
     result.snapshots.resize(pictures.size());
     std::atomic<std::size_t> from_cache{0};
     for (std::size_t k = 0; k < pictures.size(); ++k)
-        how.other_tasks.emplace_back([&, k] { from_cache += find_snapshot(o, cache, pictures[k], result.snapshots[k]); });
+        how.other_tasks.emplace_back(
+            [&, k] { from_cache += find_snapshot(o, cache, pictures[k], result.snapshots[k]); });
     result.packings = run_packings(requests_of(o), how);
     report.runs += pictures.size() - from_cache;
     report.runs_from_cache += from_cache;
@@ -156,8 +157,8 @@ study_result merge_studies(std::vector<std::string> const& directories) {
         auto other = difference(whole, parts[p]);
         if (!other && whole.code != parts[p].code) other = "code";
         if (other)
-            throw usage_error("merge " + directories[p] + ": is no part of the study in " + directories[0] + ": its " + *other +
-                              (other->back() == 's' ? " differ" : " differs"));
+            throw usage_error("merge " + directories[p] + ": is no part of the study in " + directories[0] + ": its " +
+                              *other + (other->back() == 's' ? " differ" : " differs"));
         for (auto& r : parts[p].packings) whole.packings.push_back(std::move(r));
         for (auto& s : parts[p].snapshots) whole.snapshots.push_back(std::move(s));
     }

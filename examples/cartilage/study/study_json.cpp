@@ -131,8 +131,9 @@ std::string text_of(study_result const& study) {
     };
     return "{\n" + line("lowest_MPa", study.lowest_MPa) + line("highest_MPa", study.highest_MPa) +
            line("resolution", study.resolution) + line("choices", study.choices) + line("code", study.code) +
-           line("step_share", study.step_share) + line("dry", study.dry) + line("length_um", study.length_um) + line("height_um", study.height_um) +
-           "\"packings\": " + lines_of(study.packings) + ",\n\"snapshots\": " + lines_of(study.snapshots) + "\n}\n";
+           line("step_share", study.step_share) + line("dry", study.dry) + line("length_um", study.length_um) +
+           line("height_um", study.height_um) + "\"packings\": " + lines_of(study.packings) +
+           ",\n\"snapshots\": " + lines_of(study.snapshots) + "\n}\n";
 }
 
 } // namespace cartilage

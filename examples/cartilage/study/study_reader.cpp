@@ -22,7 +22,9 @@ std::optional<double> read_time(stored_value const& v) {
 }
 
 /// A number that may be NaN. JSON has no NaN, so it is written as null; the energy of an unstable run may be NaN.
-double number_or_none(stored_value const& v) { return v.is_null() ? std::numeric_limits<double>::quiet_NaN() : v.number(); }
+double number_or_none(stored_value const& v) {
+    return v.is_null() ? std::numeric_limits<double>::quiet_NaN() : v.number();
+}
 
 std::string read_word(stored_value const& v, std::initializer_list<char const*> words) {
     std::string const found = v.text();
@@ -79,7 +81,8 @@ lacuna::scene read_scene(stored_value const& j) {
     s.kinds = particle_kinds();
     auto const frame = j["frame"].numbers(4, false);
     s.left = frame[0], s.bottom = frame[1], s.right = frame[2], s.top = frame[3];
-    if (!(s.right > s.left && s.top > s.bottom)) j["frame"].refuse("left, bottom, right, top of a frame with a width and a height");
+    if (!(s.right > s.left && s.top > s.bottom))
+        j["frame"].refuse("left, bottom, right, top of a frame with a width and a height");
     s.title = j["title"].text();
     s.subtitle = j["subtitle"].text();
     s.load_label = j["load_label"].text();
@@ -109,12 +112,14 @@ std::vector<front_profile> read_fronts(stored_value const& list) {
     list.each([&](stored_value const& f) {
         front_profile front;
         front.time = f["time"].not_negative();
-        if (!fronts.empty() && front.time < fronts.back().time) f["time"].refuse("not before that of the profile before it");
+        if (!fronts.empty() && front.time < fronts.back().time)
+            f["time"].refuse("not before that of the profile before it");
         front.broken = f["broken"].integer(std::size_t(0), std::size_t(many));
         front.depth = fronts.empty() ? f["depth"].numbers() : f["depth"].numbers(fronts.front().depth.size(), false);
         if (front.depth.empty()) f["depth"].refuse("the depth of at least one layer");
         front.stress = f["stress"].numbers(front.depth.size(), false);
-        front.pore_pressure = f["pore_pressure"].numbers(front.depth.size(), fronts.empty() || fronts.front().pore_pressure.empty());
+        front.pore_pressure =
+            f["pore_pressure"].numbers(front.depth.size(), fronts.empty() || fronts.front().pore_pressure.empty());
         if (!fronts.empty() && front.pore_pressure.size() != fronts.front().pore_pressure.size())
             f["pore_pressure"].refuse("empty, as in the first profile");
         fronts.push_back(std::move(front));
@@ -195,7 +200,8 @@ study_result read_study(stored_value const& j) {
     study.dry = j["dry"].flag();
     study.length_um = j["length_um"].positive();
     study.height_um = j["height_um"].positive();
-    j["packings"].each([&](stored_value const& p) { study.packings.push_back(read_packing(p, study.lowest_MPa, study.highest_MPa)); });
+    j["packings"].each(
+        [&](stored_value const& p) { study.packings.push_back(read_packing(p, study.lowest_MPa, study.highest_MPa)); });
     j["snapshots"].each([&](stored_value const& s) { study.snapshots.push_back(read_snapshot(s)); });
     return study;
 }

@@ -80,7 +80,8 @@ std::optional<difference> first_difference(T const& a, T const& b, std::string c
         std::size_t const n = std::size_t(a.size()), m = std::size_t(b.size());
         using index = std::conditional_t<requires { T::size(); }, int, std::size_t>;
         for (std::size_t k = 0; k < n && k < m; ++k)
-            if (auto found = first_difference(a[index(k)], b[index(k)], path + "[" + std::to_string(k) + "]", none)) return found;
+            if (auto found = first_difference(a[index(k)], b[index(k)], path + "[" + std::to_string(k) + "]", none))
+                return found;
         if (n == m) return {};
         return difference{path, std::to_string(n) + " entries", std::to_string(m) + " entries"};
     } else {

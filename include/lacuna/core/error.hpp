@@ -35,7 +35,8 @@ inline std::string to_text(double value) {
     char buffer[32];
     char* end = std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::scientific).ptr;
     // Fewer digits than the shortest form never suffice; the nearest decimal with as many digits almost always does.
-    int const least = int(std::count_if(buffer, std::find(buffer, end, 'e'), [](char c) { return c >= '0' && c <= '9'; }));
+    int const least =
+        int(std::count_if(buffer, std::find(buffer, end, 'e'), [](char c) { return c >= '0' && c <= '9'; }));
     for (int digits = std::max(6, least); digits <= 17; ++digits) {
         end = std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::general, digits).ptr;
         double back = 0;

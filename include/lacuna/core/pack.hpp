@@ -58,7 +58,8 @@ struct pack_mask {
     /// Refuses `if (a < b)`, as lanes may differ.
     template <std::same_as<bool> Bool>
     explicit operator Bool() const noexcept {
-        static_assert(!std::same_as<Bool, bool>, "a formula decides lane by lane: select(condition, a, b), max and min stand for if and ?:");
+        static_assert(!std::same_as<Bool, bool>,
+                      "a formula decides lane by lane: select(condition, a, b), max and min stand for if and ?:");
         return false;
     }
     bool operator[](int lane) const noexcept { return bits[lane] != 0; }
@@ -167,12 +168,16 @@ template <class T, int W>
 pack<T, W> sqrt(pack<T, W> const& a) noexcept {
     // A loop over std::sqrt would test errno for each lane, unless the program is built with -fno-math-errno.
 #if defined(__AVX512F__)
-    if constexpr (std::is_same_v<T, double> && W == 8) return pack<T, W>(typename pack<T, W>::native(_mm512_maskz_sqrt_pd(__mmask8(-1), a.v)));
-    if constexpr (std::is_same_v<T, float> && W == 16) return pack<T, W>(typename pack<T, W>::native(_mm512_maskz_sqrt_ps(__mmask16(-1), a.v)));
+    if constexpr (std::is_same_v<T, double> && W == 8)
+        return pack<T, W>(typename pack<T, W>::native(_mm512_maskz_sqrt_pd(__mmask8(-1), a.v)));
+    if constexpr (std::is_same_v<T, float> && W == 16)
+        return pack<T, W>(typename pack<T, W>::native(_mm512_maskz_sqrt_ps(__mmask16(-1), a.v)));
 #endif
 #if defined(__AVX__)
-    if constexpr (std::is_same_v<T, double> && W == 4) return pack<T, W>(typename pack<T, W>::native(_mm256_sqrt_pd(a.v)));
-    if constexpr (std::is_same_v<T, float> && W == 8) return pack<T, W>(typename pack<T, W>::native(_mm256_sqrt_ps(a.v)));
+    if constexpr (std::is_same_v<T, double> && W == 4)
+        return pack<T, W>(typename pack<T, W>::native(_mm256_sqrt_pd(a.v)));
+    if constexpr (std::is_same_v<T, float> && W == 8)
+        return pack<T, W>(typename pack<T, W>::native(_mm256_sqrt_ps(a.v)));
 #endif
 #if defined(__SSE2__)
     if constexpr (std::is_same_v<T, double> && W == 2) return pack<T, W>(typename pack<T, W>::native(_mm_sqrt_pd(a.v)));

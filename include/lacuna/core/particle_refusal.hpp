@@ -19,8 +19,10 @@ class particle_refusal : public std::invalid_argument {
 public:
     /// "field = value: must be rule", the message of refuse().
     /// \param particles indices that replace each `#` of the text, in this order
-    particle_refusal(std::string_view field, std::string_view value, std::string_view rule, std::vector<std::int32_t> particles)
-        : particle_refusal(std::string(field) + " = " + std::string(value) + ": must be " + std::string(rule), std::move(particles)) {}
+    particle_refusal(std::string_view field, std::string_view value, std::string_view rule,
+                     std::vector<std::int32_t> particles)
+        : particle_refusal(std::string(field) + " = " + std::string(value) + ": must be " + std::string(rule),
+                           std::move(particles)) {}
     particle_refusal(std::string_view field, double value, std::string_view rule, std::vector<std::int32_t> particles)
         : particle_refusal(field, to_text(value), rule, std::move(particles)) {}
 

@@ -65,7 +65,8 @@ void require_apart(points_view<Real, Dim> const& points, Id const& id) {
         if (!before(order[n - 1], order[n]))
             throw std::invalid_argument("particles " + std::to_string(id(order[n - 1])) + " and " +
                                         std::to_string(id(order[n])) + " are at the same place " +
-                                        to_text(points[order[n]]) + " m: must be apart, else there are no pores between them");
+                                        to_text(points[order[n]]) +
+                                        " m: must be apart, else there are no pores between them");
 }
 
 } // namespace lacuna

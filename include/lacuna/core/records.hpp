@@ -126,8 +126,9 @@ std::array<pack<T, W>, 4> transpose_load(At const& at) noexcept {
         quad a = at(0).v, b = at(1).v, c = at(2).v, d = at(3).v;
         quad ab0 = __builtin_shufflevector(a, b, 0, 4, 2, 6), ab1 = __builtin_shufflevector(a, b, 1, 5, 3, 7);
         quad cd0 = __builtin_shufflevector(c, d, 0, 4, 2, 6), cd1 = __builtin_shufflevector(c, d, 1, 5, 3, 7);
-        return {P(quad(__builtin_shufflevector(ab0, cd0, 0, 1, 4, 5))), P(quad(__builtin_shufflevector(ab1, cd1, 0, 1, 4, 5))),
-                P(quad(__builtin_shufflevector(ab0, cd0, 2, 3, 6, 7))), P(quad(__builtin_shufflevector(ab1, cd1, 2, 3, 6, 7)))};
+        quad r0 = __builtin_shufflevector(ab0, cd0, 0, 1, 4, 5), r1 = __builtin_shufflevector(ab1, cd1, 0, 1, 4, 5);
+        quad r2 = __builtin_shufflevector(ab0, cd0, 2, 3, 6, 7), r3 = __builtin_shufflevector(ab1, cd1, 2, 3, 6, 7);
+        return {P(r0), P(r1), P(r2), P(r3)};
     } else if constexpr (sizeof(T) == 4 && W == 8) {
         using full = typename P::native;
         auto two = [&](int k) { return detail::join<full>(at(k).v, at(k + 4).v); };
@@ -143,9 +144,8 @@ std::array<pack<T, W>, 4> transpose_load(At const& at) noexcept {
     } else if constexpr (sizeof(T) == 4 && W == 16) {
         using half = typename pack<T, 8>::native;
         using full = typename P::native;
-        auto four = [&](int k) {
-            return detail::join<full>(detail::join<half>(at(k).v, at(k + 4).v), detail::join<half>(at(k + 8).v, at(k + 12).v));
-        };
+        auto two = [&](int k) { return detail::join<half>(at(k).v, at(k + 4).v); };
+        auto four = [&](int k) { return detail::join<full>(two(k), two(k + 8)); };
         full a = four(0), b = four(1), c = four(2), d = four(3);
         full ab0 = __builtin_shufflevector(a, b, 0, 16, 1, 17, 4, 20, 5, 21, 8, 24, 9, 25, 12, 28, 13, 29);
         full ab1 = __builtin_shufflevector(a, b, 2, 18, 3, 19, 6, 22, 7, 23, 10, 26, 11, 27, 14, 30, 15, 31);
@@ -213,8 +213,9 @@ std::array<pack<T, W>, 8> transpose_load2(At const& at) noexcept {
             return std::array<full, 4>{low(ab0, cd0), high(ab0, cd0), low(ab1, cd1), high(ab1, cd1)};
         };
         auto front = block(0), back = block(8);
-        return {first(front[0], back[0]),  first(front[1], back[1]),  first(front[2], back[2]),  first(front[3], back[3]),
-                second(front[0], back[0]), second(front[1], back[1]), second(front[2], back[2]), second(front[3], back[3])};
+        return {first(front[0], back[0]),  first(front[1], back[1]),  first(front[2], back[2]),
+                first(front[3], back[3]),  second(front[0], back[0]), second(front[1], back[1]),
+                second(front[2], back[2]), second(front[3], back[3])};
     } else {
         auto first = transpose_load<T, W>([&](int k) { return at.template operator()<4>(k, 0); });
         auto second = transpose_load<T, W>([&](int k) { return at.template operator()<4>(k, 4); });

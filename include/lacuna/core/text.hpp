@@ -144,7 +144,8 @@ inline std::string number_rule(std::string_view word) {
     auto const has = [&](std::string_view marks) { return lower.find_first_of(marks) != lower.npos; };
     bool const digits = has("0123456789");
     if (digits && lower.find("0x") != lower.npos) return "a decimal number, not a hexadecimal one";
-    if (digits && lower.find_first_not_of("0123456789+-.d") == lower.npos) return "a number with \"e\" before its exponent, not \"d\"";
+    if (digits && lower.find_first_not_of("0123456789+-.d") == lower.npos)
+        return "a number with \"e\" before its exponent, not \"d\"";
     if (digits && has("'_")) return "a number without marks between thousands";
     if (digits && has(",")) return "a number with a decimal point, without commas";
     return "a number";
@@ -228,12 +229,16 @@ inline std::string formatted(std::string_view format, double value) {
         k += plus ? 2 : 1;
         int digits = 6;
         if (format.substr(k).starts_with('.'))
-            k = std::size_t(std::from_chars(format.data() + k + 1, format.data() + format.size(), digits).ptr - format.data());
+            k = std::size_t(std::from_chars(format.data() + k + 1, format.data() + format.size(), digits).ptr -
+                            format.data());
         auto const kind = format.substr(std::min(k, format.size()), 1).find_first_of("efg") == 0 ? format[k] : '?';
-        if (done || kind == '?' || digits < 0 || digits > 100) refuse("format", in_quotes(format), "one conversion %e, %f or %g");
+        if (done || kind == '?' || digits < 0 || digits > 100)
+            refuse("format", in_quotes(format), "one conversion %e, %f or %g");
         done = true;
         char buffer[512];
-        auto const form = kind == 'e' ? std::chars_format::scientific : kind == 'f' ? std::chars_format::fixed : std::chars_format::general;
+        auto const form = kind == 'e'   ? std::chars_format::scientific
+                          : kind == 'f' ? std::chars_format::fixed
+                                        : std::chars_format::general;
         auto const end = std::to_chars(buffer, buffer + sizeof buffer, value, form, digits).ptr;
         if (plus && !std::signbit(value)) text += '+';
         text.append(buffer, end);

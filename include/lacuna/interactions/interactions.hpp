@@ -125,8 +125,9 @@ public:
         overlap_limits<Real> const limits{deepest_, watched_};
         if constexpr (!is_absent<BondLaw>)
             evaluate_chunk<pair_kind::bond, WithEnergy, Commit, BondLaw, Damping, Domain>(
-                bonds_, chunk, bond_parameters_, damping_, store, time_step, output<pair_kind::bond>(bonds_, chunk, moments_),
-                ahead, energy[0], limits, [&](std::size_t pack) { break_bonds(store, chunk, pack, time_step); });
+                bonds_, chunk, bond_parameters_, damping_, store, time_step,
+                output<pair_kind::bond>(bonds_, chunk, moments_), ahead, energy[0], limits,
+                [&](std::size_t pack) { break_bonds(store, chunk, pack, time_step); });
         if constexpr (!is_absent<ContactLaw>)
             evaluate_chunk<pair_kind::contact, WithEnergy, Commit, ContactLaw, Damping, Domain>(
                 contacts_, chunk, contact_parameters_, damping_, store, time_step,
@@ -140,7 +141,8 @@ public:
     }
 
     /// Adds the moments of the pairs in the last evaluation to `out`; see lacuna::add_moments().
-    void add_moments([[maybe_unused]] store_type const& store, [[maybe_unused]] record_column<Real>& out) const noexcept {
+    void add_moments([[maybe_unused]] store_type const& store,
+                     [[maybe_unused]] record_column<Real>& out) const noexcept {
         if constexpr (carries_moment<BondLaw>) lacuna::add_moments(store, bonds_, moments_, out);
         if constexpr (carries_moment<ContactLaw>) lacuna::add_moments(store, contacts_, contact_moments_, out);
     }
@@ -301,7 +303,8 @@ private:
         if (!has_contacts() || !may) return;
         held_.clear();
         auto const look = [&](contact_entry const& e) {
-            if (acts_apart<ContactLaw>(store, contact_parameters_.row[std::size_t(e.parameter)], e)) held_.push_back({e.i, e.j});
+            if (acts_apart<ContactLaw>(store, contact_parameters_.row[std::size_t(e.parameter)], e))
+                held_.push_back({e.i, e.j});
         };
         for (std::size_t s = 0; s < contacts_.slots(); ++s)
             if (!contacts_.is_padding(s, store.size())) look(contacts_.get(s));
@@ -315,7 +318,9 @@ private:
 
     void rebuild_tables(store_type const& store, bool first) {
         if (!broken_.empty()) {
-            bonds_.filter(store, [&](std::size_t s) { return bond_records_[std::size_t(bonds_.label(s))].state == bond_state::intact; });
+            bonds_.filter(store, [&](std::size_t s) {
+                return bond_records_[std::size_t(bonds_.label(s))].state == bond_state::intact;
+            });
             number_bonds(bond_records_, bonds_, store.size());
             std::sort(broken_.begin(), broken_.end(), pair_before<contact_entry>);
         }

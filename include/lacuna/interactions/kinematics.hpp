@@ -84,6 +84,14 @@ struct pair_frame {
     }
 };
 
+/// Rotates the vectors of a history with the pair: the shear force and, for laws with moments, the bending moment.
+template <class Law, class History, class T>
+void rotate_history(History& history, pair_frame<T, 3> const& frame) {
+    if constexpr (requires { history.shear_force; })
+        history.shear_force = frame.rotate_with_pair(history.shear_force);
+    if constexpr (carries_moment<Law>) history.bending_moment = frame.rotate_with_pair(history.bending_moment);
+}
+
 /// Relative motion of two bodies over the last step.
 ///
 /// The lever arms are d r_i/(r_i + r_j) and d r_j/(r_i + r_j). They add up to the distance d at any stretch. Hence a

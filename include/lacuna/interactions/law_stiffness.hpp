@@ -63,7 +63,8 @@ pair_stiffness law_stiffness(typename Law::template parameters<Real> const& para
     double const coupling =
         std::max(std::fabs(answer.normal_force.derivative[1]), std::fabs(answer.shear_force[0].derivative[0]));
     double normal = std::fabs(answer.normal_force.derivative[0]);
-    if constexpr (requires { Law::stiffness(parameters); }) normal = std::max(normal, double(Law::stiffness(parameters)));
+    if constexpr (requires { Law::stiffness(parameters); })
+        normal = std::max(normal, double(Law::stiffness(parameters)));
     return {normal + coupling, std::fabs(answer.shear_force[0].derivative[1]) + coupling};
 }
 
@@ -74,7 +75,8 @@ template <class Law, int Dim, class Real>
 void require_stated_stiffness(typename Law::template parameters<Real> const& parameters, double radius) {
     if constexpr (!stiffens<Law, Dim>) {
         double const touching = law_stiffness<Law, Dim>(parameters, 2 * radius, radius, radius, false).normal;
-        double const pressed = law_stiffness<Law, Dim>(parameters, 2 * radius, radius, radius, false, 0.1 * radius).normal;
+        double const pressed =
+            law_stiffness<Law, Dim>(parameters, 2 * radius, radius, radius, false, 0.1 * radius).normal;
         if (pressed > 1.01 * touching)
             refuse("stiffness of the contact law", to_text(pressed) + " N/m at an overlap of a tenth of the radius",
                    "at most what stiffness(parameters) states, or what it is at first touch (" + to_text(touching) +
@@ -117,7 +119,8 @@ void visit_contacts(particle_store<Real, Dim> const& store, pair_table<Law, Real
                 arm[axis] = double(store.position(j)[axis]) - double(store.position(i)[axis]);
             arm = store.nearest(arm);
             pair_motion<Real, Dim> const still{Real(0), store.radius(i), store.radius(j), {}, Real(0)};
-            double const touching = double(touching_distance_of(still, table.get(s).state)), reach = touching + assumed.gap;
+            double const touching = double(touching_distance_of(still, table.get(s).state)),
+                         reach = touching + assumed.gap;
             double const squared = squared_norm(arm);
             if (!(squared <= reach * reach)) continue;
             double const distance = std::sqrt(squared);
@@ -145,16 +148,18 @@ void visit_depths(particle_store<Real, Dim> const& store, pair_table<Law, Real, 
 /// \param k normal and shear stiffness of the pair, N/m
 template <class Law, class Real, int Dim, class Parameters, class State>
 pair_tangent<Dim> tangent_of(particle_store<Real, Dim> const& store, std::size_t i, std::size_t j, bool bonded,
-                             vec<double, Dim> const& arm, double distance, pair_stiffness const& k, Parameters const& row,
-                             State const& state) {
+                             vec<double, Dim> const& arm, double distance, pair_stiffness const& k,
+                             Parameters const& row, State const& state) {
     double const ri = double(store.radius(i)), rj = double(store.radius(j));
     pair_motion<Real, Dim> const still{Real(distance), Real(ri), Real(rj), {}, Real(0)};
     auto const force = Law::evaluate(row, still, state);
-    pair_tangent<Dim> t{i, j, bonded, arm / distance, k.normal, k.shear, 0, distance * ri / (ri + rj), distance * rj / (ri + rj), {}};
+    pair_tangent<Dim> t{
+        i, j, bonded, arm / distance, k.normal, k.shear, 0, distance * ri / (ri + rj), distance * rj / (ri + rj), {}};
     t.prestress = std::hypot(double(force.normal_force), double(norm(force.shear_force))) / distance;
     if constexpr (requires { Law::shears_in_the_middle; }) t.lever_i = t.lever_j = distance / 2;
     if constexpr (carries_moment<Law>) {
-        auto const moments = Law::template rotational_stiffness<Dim>(row, store.radius(i), store.radius(j), Real(distance));
+        auto const moments =
+            Law::template rotational_stiffness<Dim>(row, store.radius(i), store.radius(j), Real(distance));
         t.moments = {double(moments.bending), double(moments.twisting)};
     }
     return t;
@@ -185,7 +190,8 @@ void visit_contact_tangents(particle_store<Real, Dim> const& store, pair_table<L
     visit_contacts(store, table, assumed, [&](std::size_t s, std::size_t i, std::size_t j, auto const& arm,
                                                    double distance, double overlap) {
         auto const& row = parameters.row[std::size_t(table.parameter()[s])];
-        auto const k = contact_stiffness<Law, Dim>(row, overlap, double(store.radius(i)), double(store.radius(j)), assumed);
+        auto const k =
+            contact_stiffness<Law, Dim>(row, overlap, double(store.radius(i)), double(store.radius(j)), assumed);
         visit(tangent_of<Law>(store, i, j, false, arm, distance, k, row, table.get(s).state));
     });
 }

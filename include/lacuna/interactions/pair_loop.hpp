@@ -23,7 +23,8 @@ template <class Law, class Real>
 struct parameter_table {
     template <class T>
     using parameters_of = typename Law::template parameters<T>;
-    static_assert(detail::consists_of<parameters_of<dual<Real, 2>>, dual<Real, 2>>(), "a law's parameters must consist of T and vec<T, N>");
+    static_assert(detail::consists_of<parameters_of<dual<Real, 2>>, dual<Real, 2>>(),
+                  "a law's parameters must consist of T and vec<T, N>");
     std::vector<parameters_of<Real>> row;
 
     void add(parameters_of<double> const& p) {
@@ -37,7 +38,8 @@ struct parameter_table {
         constexpr std::size_t count = field_count<parameters_of, Real>;
         auto const* from = reinterpret_cast<Real const*>(row.data());
         if (uniform >= 0) {
-            for (std::size_t f = 0; f < count; ++f) detail::field<Lanes>(to, f) = Lanes(from[std::size_t(uniform) * count + f]);
+            for (std::size_t f = 0; f < count; ++f)
+                detail::field<Lanes>(to, f) = Lanes(from[std::size_t(uniform) * count + f]);
         } else {
             for (std::size_t f = 0; f < count; ++f)
                 for (int k = 0; k < Lanes::width; ++k)
@@ -88,7 +90,8 @@ relative_state<Lanes, Dim> load_relative(particle_store<Real, Dim> const& store,
     } else {
         using rec = record<Real>;
         Real const* speeds = store.surface_speeds().data();
-        auto turning = transpose_load<Real, W>([&](int k) { return rec::load(speeds + j[k] / 2) + rec::load(speeds + i[k] / 2); });
+        auto turning =
+            transpose_load<Real, W>([&](int k) { return rec::load(speeds + j[k] / 2) + rec::load(speeds + i[k] / 2); });
         s.arm = {{joined[0], joined[1], joined[2]}};
         s.velocity = {{joined[4], joined[5], joined[6]}};
         s.rolling = {{turning[0], turning[1], turning[2]}};
@@ -141,7 +144,8 @@ void store_pair_forces(Real* to, vec<Lanes, Dim> const& force, vec<Lanes, rotati
 template <class Real, class Lanes, int N>
 void store_moments(Real* to, std::size_t slot, vec<Lanes, N> const& moment) noexcept {
     for (int k = 0; k < Lanes::width; ++k)
-        for (int axis = 0; axis < N; ++axis) to[(slot + std::size_t(k)) * std::size_t(N) + std::size_t(axis)] = moment[axis][k];
+        for (int axis = 0; axis < N; ++axis)
+            to[(slot + std::size_t(k)) * std::size_t(N) + std::size_t(axis)] = moment[axis][k];
 }
 
 /// Evaluates a law for one pack of pairs. A law with moments also gets the relative rotation of the particles.
@@ -220,8 +224,8 @@ struct overlap_limits {
 
 /// Whether a bond of a pack has failed, or a contact of the pack exceeds a limit.
 template <pair_kind Kind, class Law, class Answer, class View, class State, class Real>
-bool has_event([[maybe_unused]] Answer const& answer, [[maybe_unused]] View const& view, [[maybe_unused]] State const& state,
-               [[maybe_unused]] overlap_limits<Real> const& limits) noexcept {
+bool has_event([[maybe_unused]] Answer const& answer, [[maybe_unused]] View const& view,
+               [[maybe_unused]] State const& state, [[maybe_unused]] overlap_limits<Real> const& limits) noexcept {
     if constexpr (Kind == pair_kind::bond) {
         return any(answer.broken);
     } else {
@@ -243,7 +247,8 @@ bool has_event([[maybe_unused]] Answer const& answer, [[maybe_unused]] View cons
 /// \tparam Commit true: stores the new histories and reports events; false: forces alone, for a trial
 /// \param ahead prefetches data that the next chunks read
 /// \param on_event called as on_event(pack) after a pack in which a bond has failed or a contact exceeds a limit; rare
-template <pair_kind Kind, bool WithEnergy, bool Commit, class Law, class Damping, class Domain, class Real, int Dim, class OnEvent>
+template <pair_kind Kind, bool WithEnergy, bool Commit, class Law, class Damping, class Domain, class Real, int Dim,
+          class OnEvent>
 [[gnu::noinline, gnu::flatten]] void
 evaluate_chunk(pair_table<Law, Real, Dim>& table, int chunk, parameter_table<Law, Real> const& parameters,
                typename Damping::parameters const& damping, particle_store<Real, Dim> const& store, Real time_step,
@@ -271,7 +276,8 @@ evaluate_chunk(pair_table<Law, Real, Dim>& table, int chunk, parameter_table<Law
     pair_view<lanes, Dim> next{};
     std::size_t const first = table.first_pack(chunk), end = table.end_pack(chunk);
     // The packs of the next chunk follow the spare packs of this one.
-    auto const pack_after = [end, spare = table.first_pack(chunk + 1) - end](std::size_t p) { return p < end ? p : p + spare; };
+    std::size_t const spare = table.first_pack(chunk + 1) - end;
+    auto const pack_after = [end, spare](std::size_t p) { return p < end ? p : p + spare; };
     if (looks_ahead && first < end) next = load_pair(first);
     for (std::size_t p = first; p < end; ++p) {
         std::size_t const slot = p * W;
@@ -283,16 +289,16 @@ evaluate_chunk(pair_table<Law, Real, Dim>& table, int chunk, parameter_table<Law
         auto const& frame = view.frame;
         if constexpr (looks_ahead) next = load_pair(p + 1 < end ? p + 1 : p);
         auto state = states.load(p);
-        if constexpr (Dim == 3 && requires { state.shear_force; }) state.shear_force = frame.rotate_with_pair(state.shear_force);
-        if constexpr (Dim == 3 && carries_moment<Law>) state.bending_moment = frame.rotate_with_pair(state.bending_moment);
+        if constexpr (Dim == 3) rotate_history<Law>(state, frame);
         if (std::int32_t const row = table.uniform_parameter(p); row != loaded || row < 0) {
             parameters.template load<lanes>(law, row, table.parameter() + slot);
             loaded = row;
         }
-        auto answer = evaluate_law<Law>(law, frame, state, view.pair, store, table.i_records() + slot, table.j_records() + slot, dt);
+        auto answer = evaluate_law<Law>(law, frame, state, view.pair, store, table.i_records() + slot,
+                                        table.j_records() + slot, dt);
         auto normal = answer.normal_force;
         if constexpr (Damping::acts_on_pairs) {
-            normal = with_dashpots<Kind, Law, Damping>(answer.normal_force, damping, law, frame, state, table, store, slot);
+            normal = with_dashpots<Kind, Law, Damping>(normal, damping, law, frame, state, table, store, slot);
             if constexpr (WithEnergy) damped += (normal - answer.normal_force) * frame.motion.normal_rate * dt;
         }
         if constexpr (Commit) states.store(p, answer.history);
@@ -304,8 +310,7 @@ evaluate_chunk(pair_table<Law, Real, Dim>& table, int chunk, parameter_table<Law
         if constexpr (WithEnergy && states_energies<Law, Dim>)
             stored += answer.stored_energy, dissipated += answer.dissipated_energy;
         if constexpr (Commit)
-            if (has_event<Kind, Law>(answer, view, state, limits)) [[unlikely]]
-                on_event(p);
+            if (has_event<Kind, Law>(answer, view, state, limits)) [[unlikely]] on_event(p);
     }
     if constexpr (WithEnergy) energy = {double(sum(stored)), double(sum(dissipated)), double(sum(damped)), 0};
 }

@@ -85,7 +85,8 @@ public:
                 if (!close) continue;
                 bool const touches = first && std::abs(distance - r) <= tolerance * r;
                 Real const start = touches ? distance : r;
-                listed.push_back(known ? near_[old] : near_wall{w, k, ContactLaw::template initial<Real, Dim>(start, r)});
+                listed.push_back(known ? near_[old]
+                                       : near_wall{w, k, ContactLaw::template initial<Real, Dim>(start, r)});
             }
         near_ = std::move(listed);
         std::size_t const blocks = (store.size() + block_particles - 1) / block_particles;
@@ -125,17 +126,20 @@ public:
             rotate_history(n.state, frame, i.spin, time_step);
             auto const& law = row_of(store, n);
             if constexpr (stiffens<ContactLaw, Dim>)
-                deepest_ = std::max(deepest_, double((touching_distance_of(frame.motion, n.state) - distance) / i.radius));
+                deepest_ =
+                    std::max(deepest_, double((touching_distance_of(frame.motion, n.state) - distance) / i.radius));
             auto const answer = evaluate_law(law, frame, n.state, i.spin, time_step);
             Real normal_force = answer.normal_force;
             if (normal_force < 0)
                 stiffness_[n.plane] += double(dashpot_stiffness<ContactLaw>(law, frame.motion, n.state));
             if constexpr (Damping::acts_on_pairs) {
                 // A wall counts as infinitely heavy: the effective mass of the pair is the particle's mass.
-                Real const drag = Damping::pair_force(damping, dashpot_stiffness<ContactLaw>(law, frame.motion, n.state),
-                                                      2 * i.mass, 2 * i.mass, frame.motion.normal_rate);
+                Real const drag =
+                    Damping::pair_force(damping, dashpot_stiffness<ContactLaw>(law, frame.motion, n.state), 2 * i.mass,
+                                        2 * i.mass, frame.motion.normal_rate);
                 if (normal_force < 0)
-                    normal_force = dashpot_pulls<Damping> ? normal_force + drag : std::min(normal_force + drag, Real(0));
+                    normal_force =
+                        dashpot_pulls<Damping> ? normal_force + drag : std::min(normal_force + drag, Real(0));
                 energy.damped += double((normal_force - answer.normal_force) * frame.motion.normal_rate * time_step);
             }
             n.state = answer.history;
@@ -218,7 +222,8 @@ public:
     /// Calls visit(particle, normal, normal_stiffness, shear_stiffness, lever) for each particle that touches a wall or
     /// may touch one under the assumption; N/m, m.
     template <class Visit>
-    void for_each_stiffness(particle_store<Real, Dim> const& store, contact_assumption const& assumed, Visit const& visit) const {
+    void for_each_stiffness(particle_store<Real, Dim> const& store, contact_assumption const& assumed,
+                            Visit const& visit) const {
         visit_near(store, assumed, [&](near_wall const& n, double r, double distance, double overlap) {
             auto const k = contact_stiffness<ContactLaw, Dim>(row_of(store, n), overlap, r, 0.0, assumed);
             visit(n.particle, walls_[n.plane].normal, k.normal, k.shear, std::max(distance, 0.0));
@@ -226,7 +231,8 @@ public:
     }
     /// Calls visit(contact_seen, pair_stiffness) for the same contacts.
     template <class Visit>
-    void for_each_depth(particle_store<Real, Dim> const& store, contact_assumption const& assumed, Visit const& visit) const {
+    void for_each_depth(particle_store<Real, Dim> const& store, contact_assumption const& assumed,
+                        Visit const& visit) const {
         visit_near(store, assumed, [&](near_wall const& n, double r, double, double overlap) {
             auto const approach = motion_[n.plane].next - convert<double>(store.velocity(n.particle));
             visit(contact_seen{overlap, r, double(store.mass(n.particle)), dot(approach, walls_[n.plane].normal)},
@@ -240,19 +246,25 @@ public:
                                    [[maybe_unused]] Visit const& visit) const {
         if constexpr (carries_moment<ContactLaw>)
             visit_near(store, assumed, [&](near_wall const& n, double r, double, double) {
-                auto const k = ContactLaw::template rotational_stiffness<Dim>(row_of(store, n), Real(r), Real(0), Real(r));
-                visit(n.particle, walls_[n.plane].normal, moment_stiffness<double>{double(k.bending), double(k.twisting)});
+                auto const k =
+                    ContactLaw::template rotational_stiffness<Dim>(row_of(store, n), Real(r), Real(0), Real(r));
+                visit(n.particle, walls_[n.plane].normal,
+                      moment_stiffness<double>{double(k.bending), double(k.twisting)});
             });
     }
     std::size_t size() const noexcept { return walls_.size(); }
     /// Parameters of the contact law between a wall and a material of the particles.
-    auto const& parameters(std::size_t w, std::size_t material) const noexcept { return parameters_.row[w * materials_ + material]; }
+    auto const& parameters(std::size_t w, std::size_t material) const noexcept {
+        return parameters_.row[w * materials_ + material];
+    }
     /// Writes the state that a run changes to an archive, or reads it from one.
     template <class Archive>
     void archive(Archive& ar, particle_store<Real, Dim> const& store) {
-        ar(near_, fixed_length{force_}, fixed_length{motion_}, reach_, fixed_length{path_}, fixed_length{room_}, walls_path_);
+        ar(near_, fixed_length{force_}, fixed_length{motion_}, reach_, fixed_length{path_}, fixed_length{room_},
+           walls_path_);
         for (auto const& n : near_)
-            require_state(n.plane < walls_.size() && n.particle < store.size(), "a contact of a wall or particle that does not exist");
+            require_state(n.plane < walls_.size() && n.particle < store.size(),
+                          "a contact of a wall or particle that does not exist");
     }
 
 private:
@@ -267,7 +279,8 @@ private:
         Real clearance = std::numeric_limits<Real>::infinity();
         std::size_t const first = block * block_particles, last = std::min(first + block_particles, store.size());
         for (std::size_t w = 0; w < walls_.size(); ++w) {
-            auto listed = std::partition_point(near_.begin(), near_.end(), [&](near_wall const& n) { return n.before(w, first); });
+            auto listed = std::partition_point(near_.begin(), near_.end(),
+                                               [&](near_wall const& n) { return n.before(w, first); });
             for (std::size_t k = first; k < last; ++k) {
                 if (listed != near_.end() && listed->plane == w && listed->particle == k) {
                     ++listed;
@@ -300,8 +313,7 @@ private:
         if constexpr (Dim == 3) {
             frame.previous_normal = frame.normal;
             frame.twist = Real(0.5) * dot(spin, frame.normal) * time_step;
-            if constexpr (requires { state.shear_force; }) state.shear_force = frame.rotate_with_pair(state.shear_force);
-            if constexpr (carries_moment<ContactLaw>) state.bending_moment = frame.rotate_with_pair(state.bending_moment);
+            lacuna::rotate_history<ContactLaw>(state, frame);
         }
     }
     template <class Parameters>

@@ -94,7 +94,8 @@ struct beam_bond {
     /// Returns the parameters of a bond whose values `own` replace those of its materials.
     /// \throws std::invalid_argument for a stiffness in `own`: a beam's stiffness follows from its section and length
     template <int Dim>
-    static parameters<double> with_values(parameters<double> p, bond_values const& own, double radius_i, double radius_j) {
+    static parameters<double> with_values(parameters<double> p, bond_values const& own, double radius_i,
+                                          double radius_j) {
         char const* const rule = "left out: a beam's stiffness follows from its section";
         if (own.normal_stiffness) refuse("normal_stiffness", *own.normal_stiffness, rule);
         if (own.shear_stiffness) refuse("shear_stiffness", *own.shear_stiffness, rule);
@@ -141,7 +142,8 @@ struct beam_bond {
         // The stress at the rim times A: A R / I is 3 / R in the plane and 4 / R in space, A R / J is 2 / R.
         T at_rim = normal + max(norm(bending + half), norm(bending - half)) * T(value_t<T>(Dim == 2 ? 3.0 : 4.0)) / r;
         T along_rim = norm(shear) + abs(twisting) * T(value_t<T>(2.0)) / r;
-        auto failure = box_envelope::check_strength(at_rim, along_rim, p.tensile_strength * area, p.shear_strength * area);
+        auto failure =
+            box_envelope::check_strength(at_rim, along_rim, p.tensile_strength * area, p.shear_strength * area);
         T stored = T(value_t<T>(0.5)) * (normal * normal / axial + squared_norm(shear) / across +
                                          squared_norm(bending) / rotational.bending);
         if constexpr (Dim == 3) stored = stored + T(value_t<T>(0.5)) * twisting * twisting / rotational.twisting;

@@ -45,7 +45,8 @@ struct bond_values {
 
 /// True if a bond law accepts values of single bonds.
 template <class Law, int Dim>
-inline constexpr bool takes_bond_values = requires(typename Law::template parameters<double> const& p, bond_values const& v) {
+inline constexpr bool takes_bond_values = requires(typename Law::template parameters<double> const& p,
+                                                   bond_values const& v) {
     Law::template with_values<Dim>(p, v, 1.0, 1.0);
 };
 

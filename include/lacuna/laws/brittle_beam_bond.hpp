@@ -62,7 +62,8 @@ struct brittle_beam_bond {
 
     /// Returns the parameters of a bond whose values `own` replace those of its materials.
     template <int Dim>
-    static parameters<double> with_values(parameters<double> p, bond_values const& own, double radius_i, double radius_j) {
+    static parameters<double> with_values(parameters<double> p, bond_values const& own, double radius_i,
+                                          double radius_j) {
         bond_values springs = own;
         springs.bending_stiffness.reset();
         p.spring = brittle_spring_bond::with_values<Dim>(p.spring, springs, radius_i, radius_j);
@@ -80,7 +81,8 @@ struct brittle_beam_bond {
     }
 
     template <int Dim, class T>
-    static moment_stiffness<T> rotational_stiffness(parameters<T> const& p, T radius_i, T radius_j, T /*distance*/ = T(0)) {
+    static moment_stiffness<T> rotational_stiffness(parameters<T> const& p, T radius_i, T radius_j,
+                                                    T /*distance*/ = T(0)) {
         T r = min(radius_i, radius_j);
         T r2 = r * r * p.bending_ratio;
         if constexpr (Dim == 2)
@@ -102,8 +104,8 @@ struct brittle_beam_bond {
         T twisting = h.twisting_moment + rotation.twist * k.twisting;
         T at_rim = spring.normal_force + norm(bending) * T(value_t<T>(Dim == 2 ? 3.0 : 4.0)) / r;
         T along_rim = norm(spring.shear_force) + abs(twisting) * T(value_t<T>(2.0)) / r;
-        auto failure =
-            box_envelope::check_strength(at_rim, along_rim, p.spring.tensile_strength * area, p.spring.shear_strength * area);
+        auto failure = box_envelope::check_strength(at_rim, along_rim, p.spring.tensile_strength * area,
+                                                    p.spring.shear_strength * area);
         T stored = spring.stored_energy + T(value_t<T>(0.5)) * (per(squared_norm(bending), k.bending) +
                                                                 per(twisting * twisting, k.twisting));
         return {{{spring.normal_force,

@@ -81,7 +81,8 @@ struct mohr_coulomb_envelope {
         return {slope, slope > 0 ? min(1 / slope, 1e30) : 1e30};
     }
     template <class T>
-    static box_envelope::failure<T> check_strength(parameters<T> const& p, T normal, T shear, T tensile_limit, T cohesion) {
+    static box_envelope::failure<T> check_strength(parameters<T> const& p, T normal, T shear, T tensile_limit,
+                                                   T cohesion) {
         return box_envelope::check_strength(normal, shear, min(tensile_limit, cohesion * p.apex),
                                    max(cohesion - normal * p.internal_friction, T(0)));
     }
@@ -153,8 +154,10 @@ struct brittle_spring_bond_with {
     /// Returns the parameters of a bond whose values `own` replace those of its materials.
     /// \throws std::invalid_argument for a stiffness against bending, which these springs do not have
     template <int Dim>
-    static parameters<double> with_values(parameters<double> p, bond_values const& own, double radius_i, double radius_j) {
-        if (own.bending_stiffness) refuse("bending_stiffness", *own.bending_stiffness, "left out: the bond law has none");
+    static parameters<double> with_values(parameters<double> p, bond_values const& own, double radius_i,
+                                          double radius_j) {
+        if (own.bending_stiffness)
+            refuse("bending_stiffness", *own.bending_stiffness, "left out: the bond law has none");
         double const area = Area::template area<Dim>(radius_i, radius_j, p.thickness);
         p.normal_stiffness = own.normal_stiffness.value_or(p.normal_stiffness);
         p.normal_compliance = 1 / p.normal_stiffness;

@@ -177,7 +177,8 @@ concept damping_pair_force = !requires { requires Policy::acts_on_pairs; } ||
         { Policy::pair_force(p, value, value, value, value) } -> std::convertible_to<T>;
     };
 template <class Policy, class T>
-concept damping_forces = damping_particle_force<Policy, T> && damping_inertial_force<Policy, T> && damping_pair_force<Policy, T>;
+concept damping_forces =
+    damping_particle_force<Policy, T> && damping_inertial_force<Policy, T> && damping_pair_force<Policy, T>;
 } // namespace detail
 
 /// Requirements on a damping policy, such as no_damping and local_damping. It has `parameters` with

@@ -34,8 +34,8 @@ constexpr bool consists_of() {
         return true;
     else if constexpr (is_vec<Member>)
         return std::is_same_v<Member, vec<T, Member::size()>>;
-    else if constexpr (!std::is_class_v<Member> || !std::is_aggregate_v<Member> || !std::is_trivially_copyable_v<Member> ||
-                       is_fixed_array<Member>)
+    else if constexpr (!std::is_class_v<Member> || !std::is_aggregate_v<Member> ||
+                       !std::is_trivially_copyable_v<Member> || is_fixed_array<Member>)
         return false;
     else
         return decltype(with_members(std::declval<Member&>(), [](auto&... member) {
@@ -78,12 +78,14 @@ concept law_initial = requires(T const& distance) {
 };
 /// The formula exists, and each member of its response has the right type.
 template <class Law, int Dim, class T>
-concept law_evaluate = requires(typename Law::template parameters<T> const& parameters, pair_motion<T, Dim> const& motion,
+concept law_evaluate = requires(typename Law::template parameters<T> const& parameters,
+                                pair_motion<T, Dim> const& motion,
                                 typename Law::template history<T, Dim> const& history) {
     Law::evaluate(parameters, motion, history);
     { Law::evaluate(parameters, motion, history).normal_force } -> std::convertible_to<T>;
     { Law::evaluate(parameters, motion, history).shear_force } -> std::convertible_to<vec<T, shear_dim<Dim>>>;
-    { Law::evaluate(parameters, motion, history).history } -> std::convertible_to<typename Law::template history<T, Dim>>;
+    { Law::evaluate(parameters, motion, history).history } ->
+        std::convertible_to<typename Law::template history<T, Dim>>;
 };
 /// Both energies, or none of them: force_response.
 template <class Law, int Dim, class T>
@@ -136,7 +138,8 @@ concept law_moments =
 template <class Law, int Dim>
 concept law_rotational_stiffness =
     !carries_moment<Law> || requires(typename Law::template parameters<double> const& parameters) {
-        { Law::template rotational_stiffness<Dim>(parameters, 1.0, 1.0, 1.0) } -> std::convertible_to<moment_stiffness<double>>;
+        { Law::template rotational_stiffness<Dim>(parameters, 1.0, 1.0, 1.0) } ->
+            std::convertible_to<moment_stiffness<double>>;
     };
 
 template <class Law, int Dim, class T>
@@ -157,7 +160,8 @@ concept pair_law = law_material<Law> && law_parameters<Law> && law_history<Law, 
 ///   - `history<T, Dim>`: an aggregate of T (and vec of T) only. `initial<T, Dim>(distance, touching_distance)` returns
 ///     the history at zero force. The engine rotates a member `shear_force` with the pair. A pair stays in the table
 ///     while a member `touching_distance` exceeds the sum of the radii; else it stays up to that sum plus a skin;
-///   - `evaluate(parameters<T>, pair_motion<T, Dim>, history<T, Dim>) -> pair_response`, or force_response: the formula;
+///   - `evaluate(parameters<T>, pair_motion<T, Dim>, history<T, Dim>) -> pair_response`, or force_response: the
+///     formula;
 ///   - `stiffness(parameters)`: the largest tangent stiffness of the normal force, N/m. A law whose tangent grows with
 ///     the overlap has `stiffness(parameters, pair_motion, history)` instead: see dashpot_stiffness() and
 ///     require_stated_stiffness();
@@ -169,7 +173,8 @@ concept contact_law = detail::pair_law<Law, Dim> && detail::law_hand_over<Law, D
 
 /// A law for two bonded particles: a contact law without `hand_over`. Its response says whether the bond fails.
 template <class Law, int Dim>
-concept bond_law = detail::pair_law<Law, Dim> && detail::law_broken<Law, Dim, double> && detail::law_broken<Law, Dim, detail::law_pack>;
+concept bond_law = detail::pair_law<Law, Dim> && detail::law_broken<Law, Dim, double> &&
+    detail::law_broken<Law, Dim, detail::law_pack>;
 
 namespace detail {
 /// Instantiates a formula for packs, so that the compiler refuses a bad one at the law's slot and not deep in the step.

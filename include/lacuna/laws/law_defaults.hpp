@@ -42,14 +42,15 @@ concept law_has_same_fields = requires {
 };
 } // namespace detail
 
-/// What a law need not write itself: `struct my_law : lacuna::law_defaults<my_law> { ... };`. A law that declares one of these
-/// members hides the default.
+/// What a law need not write itself: `struct my_law : lacuna::law_defaults<my_law> { ... };`. A law that declares one
+/// of these members hides the default.
 template <class Law>
 struct law_defaults {
     /// One rule for all values of a material, or a std::array with one for each.
     static constexpr combine_rule combined_by = combine_rule::series;
 
-    /// Combines two materials value by value, by the law's `combined_by`. For laws whose parameters are the material's values.
+    /// Combines two materials value by value, by the law's `combined_by`. For laws whose parameters are the material's
+    /// values.
     template <class L = Law>
         requires detail::law_has_same_fields<L>
     static typename L::template parameters<double> combine(typename L::material const& a, typename L::material const& b,
@@ -78,8 +79,8 @@ struct law_defaults {
         return h;
     }
 
-    /// Where a bond fails in shear, the contact starts without a normal force at the present distance, or at the sum of the
-    /// radii if that is less. A member `shear_force` carries the bond's shear force on.
+    /// Where a bond fails in shear, the contact starts without a normal force at the present distance, or at the sum of
+    /// the radii if that is less. A member `shear_force` carries the bond's shear force on.
     template <class P, class T, int Dim, class L = Law>
     static typename L::template history<T, Dim> hand_over(P const& /*parameters*/, pair_motion<T, Dim> const& m,
                                                           T /*normal_force*/,
@@ -89,8 +90,8 @@ struct law_defaults {
         return h;
     }
 
-    /// The formula's own derivative of the normal force by the distance, in the present state, N/m. A law whose unloading is
-    /// stiffer than its loading states the larger value itself: `stiffness(parameters)`.
+    /// The formula's own derivative of the normal force by the distance, in the present state, N/m. A law whose
+    /// unloading is stiffer than its loading states the larger value itself: `stiffness(parameters)`.
     template <class T, int Dim, class P, class H, class L = Law>
     static T stiffness(P const& parameters, pair_motion<T, Dim> const& m, H const& history) {
         using number = dual<T, 1>;

@@ -79,7 +79,8 @@ struct parallel_bond {
 
     /// Returns the parameters of a bond whose values `own` replace those of its materials.
     template <int Dim>
-    static parameters<double> with_values(parameters<double> p, bond_values const& own, double radius_i, double radius_j) {
+    static parameters<double> with_values(parameters<double> p, bond_values const& own, double radius_i,
+                                          double radius_j) {
         double const r = p.radius_factor * min(radius_i, radius_j);
         double const area = smaller_particle_area::area<Dim>(r, r, p.thickness);
         p.normal_stiffness = own.normal_stiffness.value_or(p.normal_stiffness);
@@ -99,7 +100,8 @@ struct parallel_bond {
     }
 
     template <int Dim, class T>
-    static moment_stiffness<T> rotational_stiffness(parameters<T> const& p, T radius_i, T radius_j, T /*distance*/ = T(0)) {
+    static moment_stiffness<T> rotational_stiffness(parameters<T> const& p, T radius_i, T radius_j,
+                                                    T /*distance*/ = T(0)) {
         T r = p.radius_factor * min(radius_i, radius_j);
         T r2 = r * r * p.moment_factor;
         if constexpr (Dim == 2)
@@ -122,7 +124,8 @@ struct parallel_bond {
         // The stress at the rim times A: A R / I is 3 / R in the plane and 4 / R in space, A R / J is 2 / R.
         T at_rim = normal + norm(bending) * T(value_t<T>(Dim == 2 ? 3.0 : 4.0)) / r;
         T along_rim = norm(shear) + abs(twisting) * T(value_t<T>(2.0)) / r;
-        auto failure = box_envelope::check_strength(at_rim, along_rim, p.tensile_strength * area, p.shear_strength * area);
+        auto failure =
+            box_envelope::check_strength(at_rim, along_rim, p.tensile_strength * area, p.shear_strength * area);
         T stored = T(value_t<T>(0.5)) *
                    (per(normal * normal, p.normal_stiffness) + per(squared_norm(shear), p.shear_stiffness) +
                     per(squared_norm(bending), k.bending) + per(twisting * twisting, k.twisting));

@@ -75,7 +75,8 @@ struct rolling_spring {
 
     /// Stiffness against rolling, N m/rad.
     template <int Dim, class T>
-    static moment_stiffness<T> rotational_stiffness(parameters<T> const& p, T radius_i, T radius_j, T /*distance*/ = T(0)) {
+    static moment_stiffness<T> rotational_stiffness(parameters<T> const& p, T radius_i, T radius_j,
+                                                    T /*distance*/ = T(0)) {
         T r = rolling_radius(radius_i, radius_j);
         return {p.rolling_stiffness * r * r, T(0)};
     }

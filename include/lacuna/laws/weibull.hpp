@@ -59,7 +59,8 @@ private:
             z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
             return z ^ (z >> 31);
         };
-        auto const low = std::uint64_t(std::uint32_t(std::min(a, b))), high = std::uint64_t(std::uint32_t(std::max(a, b)));
+        auto const low = std::uint64_t(std::uint32_t(std::min(a, b))),
+                   high = std::uint64_t(std::uint32_t(std::max(a, b)));
         return (double(mixed(mixed(seed) ^ (high << 32 | low)) >> 11) + 0.5) * 0x1p-53;
     }
 };

@@ -72,7 +72,8 @@ struct body_force {
         explicit term(parameters const& p) : force_(p.force) {}
         static constexpr bool active() noexcept { return true; }
 
-        /// Adds the force on each particle to `out`: one record {force, torque over radius} per particle in 2D, two in 3D.
+        /// Adds the force on each particle to `out`: one record {force, torque over radius} per particle in 2D, two in
+        /// 3D.
         /// \param time of the positions, s
         void add_forces(store_type const& store, double time, int threads, record_column<Real>& out) {
             forces_.resize(store.size());
@@ -138,7 +139,8 @@ struct body_force {
                 double const below = (at.*variable)[axis];
                 point const low = force_on(at);
                 (at.*variable)[axis] = middle;
-                for (int row = 0; row < Dim; ++row) result[std::size_t(row)][axis] = (low[row] - high[row]) / (above - below);
+                for (int row = 0; row < Dim; ++row)
+                    result[std::size_t(row)][axis] = (low[row] - high[row]) / (above - below);
             }
             return result;
         }
@@ -161,7 +163,8 @@ concept forces_term = std::copyable<typename F::template term<Real, Dim>> &&
 /// What a step asks of a term that is not no_forces.
 template <class F, class Real, int Dim>
 concept forces_members = std::is_same_v<F, no_forces> ||
-    requires(typename F::template term<Real, Dim>& term, particle_store<Real, Dim> const& store, record_column<Real>& out) {
+    requires(typename F::template term<Real, Dim>& term, particle_store<Real, Dim> const& store,
+             record_column<Real>& out) {
         term.add_forces(store, 1.0, 1, out);
         { term.force(std::size_t(0)) } -> std::convertible_to<vec<Real, Dim>>;
         { term.power(store) } -> std::convertible_to<double>;

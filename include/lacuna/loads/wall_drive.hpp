@@ -48,7 +48,8 @@ struct wall_servo {
     }
 };
 
-/// Moves walls at prescribed velocities or by servos. `Walls` is wall_contacts, of a room that this one does not include.
+/// Moves walls at prescribed velocities or by servos. `Walls` is wall_contacts, of a room that this one does not
+/// include.
 template <int Dim>
 class wall_drive {
 public:
@@ -122,7 +123,8 @@ public:
             require_state(s.on == 0 || s.on == 1, "whether a wall has a servo");
             if (s.on && !(s.law.area > 0))
                 for (auto const& pair : s.law.between)
-                    for (auto const w : pair) require_state(w >= 0 && std::size_t(w) < servo_.size(), "a servo's walls");
+                    for (auto const w : pair)
+                        require_state(w >= 0 && std::size_t(w) < servo_.size(), "a servo's walls");
         }
     }
 
@@ -133,7 +135,8 @@ private:
     };
 
     std::string checked(std::size_t w) const {
-        if (w >= servo_.size()) refuse("wall", double(w), "below the number of walls, " + std::to_string(servo_.size()));
+        if (w >= servo_.size())
+            refuse("wall", double(w), "below the number of walls, " + std::to_string(servo_.size()));
         return "wall " + std::to_string(w);
     }
     template <class Walls>

@@ -37,7 +37,9 @@ public:
 
     /// Sets the inverse mass of a particle along `axis`, 1/kg (axis >= Dim: the inverse moment of inertia, 1/(kg m^2));
     /// 0 if fixed.
-    void set_mobility(std::size_t k, int axis, double mobility) { root_mobility_[k][std::size_t(axis)] = std::sqrt(mobility); }
+    void set_mobility(std::size_t k, int axis, double mobility) {
+        root_mobility_[k][std::size_t(axis)] = std::sqrt(mobility);
+    }
 
     /// Adds a spring between two particles, with stiffnesses along the normal and across it, N/m. The shear stiffness
     /// acts with lever arms to the centres, m; the prestress stiffness (force over distance) has no lever arms.
@@ -54,7 +56,8 @@ public:
     }
 
     /// Adds a spring between a particle and a fixed support. Units: N/m, m.
-    void add_support(std::size_t i, point const& normal, double normal_stiffness, double shear_stiffness, double lever) {
+    void add_support(std::size_t i, point const& normal, double normal_stiffness, double shear_stiffness,
+                     double lever) {
         auto const axes = frame(normal);
         for (int a = 0; a < Dim; ++a)
             add(std::array{i}, std::array<gradient, 1>{gradient_of(-axes[std::size_t(a)], normal, lever)},
@@ -88,7 +91,8 @@ public:
                 auto& off_diagonal = off_diagonal_[who[p]];
                 for (std::size_t q = 0; q < Count; ++q)
                     for (int b = 0; b < freedoms; ++b) {
-                        double const entry = stiffness * ga * g[q][std::size_t(b)] * root_mobility_[who[q]][std::size_t(b)];
+                        double const entry =
+                            stiffness * ga * g[q][std::size_t(b)] * root_mobility_[who[q]][std::size_t(b)];
                         if (q == p)
                             own[std::size_t(a * freedoms + b)] += entry;
                         else
@@ -97,12 +101,13 @@ public:
             }
     }
 
-    /// A force on particle k alone: minus its derivative by the position (or velocity), by rows, N/m (N s/m). It need not be
-    /// symmetric: Gershgorin's theorem holds for any matrix.
+    /// A force on particle k alone: minus its derivative by the position (or velocity), by rows, N/m (N s/m). It need
+    /// not be symmetric: Gershgorin's theorem holds for any matrix.
     void add_matrix(std::size_t k, std::array<point, std::size_t(Dim)> const& derivative) {
         for (int a = 0; a < Dim; ++a)
             for (int b = 0; b < Dim; ++b)
-                block_[k][std::size_t(a * freedoms + b)] += derivative[std::size_t(a)][b] * root_mobility_[k][std::size_t(a)] *
+                block_[k][std::size_t(a * freedoms + b)] += derivative[std::size_t(a)][b] *
+                                                            root_mobility_[k][std::size_t(a)] *
                                                             root_mobility_[k][std::size_t(b)];
     }
 
@@ -114,7 +119,8 @@ public:
         for (std::size_t k = 0; k < block_.size(); ++k)
             for (int a = 0; a < freedoms; ++a) {
                 double sums[2] = {off_diagonal_[k][std::size_t(2 * a)], off_diagonal_[k][std::size_t(2 * a + 1)]};
-                for (int b = 0; b < freedoms; ++b) sums[b >= Dim] += std::fabs(block_[k][std::size_t(a * freedoms + b)]);
+                for (int b = 0; b < freedoms; ++b)
+                    sums[b >= Dim] += std::fabs(block_[k][std::size_t(a * freedoms + b)]);
                 // This form passes not-a-number on to the bound, so that the step becomes zero.
                 if (sums[0] + sums[1] == 0) continue;
                 for (std::size_t s = 0; s < scales; ++s) {

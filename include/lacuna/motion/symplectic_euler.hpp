@@ -37,7 +37,8 @@ struct symplectic_euler {
     template <bool WithEnergy, class Damping, class Real, int Dim, class PairForce>
     [[gnu::noinline, gnu::flatten]] static void
     advance(particle_store<Real, Dim>& store, std::size_t first, int count, Real time_step, PairForce const& pair_force,
-            typename Damping::parameters const& damping, record_column<Real> const* extra, motion_report<Real>& report) {
+            typename Damping::parameters const& damping, record_column<Real> const* extra,
+            motion_report<Real>& report) {
         using rec = record<Real>;
         rec dt(time_step);
         rec path(time_step); // the fourth lane holds the radius
@@ -59,8 +60,7 @@ struct symplectic_euler {
                 rec next = velocity + force * store.inverse_mass(p) * dt;
                 store.bodies().set(p, next, 1);
                 store.bodies().set(p, position + next * path, 0);
-                rec size = abs(next);
-                fastest = max(size, fastest);
+                fastest = max(abs(next), fastest);
                 poison += next * rec(Real(0));
                 if constexpr (WithEnergy) add_energy(store, p, velocity, next, load, force, drag, report);
             } else {
@@ -90,7 +90,8 @@ struct symplectic_euler {
                     add_energy(store, p, velocity, next, load, force, drag, report);
                     for (int axis = 0; axis < 3; ++axis)
                         add_freedom(surface_inertia(store, p), store.mobility(p, 3) == Real(0), spin[axis],
-                                    next_spin[axis], double(torque_load[axis]), torque[axis], brake[axis], true, report);
+                                    next_spin[axis], double(torque_load[axis]), torque[axis], brake[axis], true,
+                                    report);
                 }
             }
         }
@@ -107,7 +108,8 @@ private:
         if constexpr (requires { requires Damping::needs_inertia; }) {
             record<Real> inverse = inverse_inertia(), zero(Real(0)), one(Real(1));
             auto free = inverse > zero;
-            return Damping::particle_force(damping, force, velocity, select(free, one / select(free, inverse, one), zero));
+            return Damping::particle_force(damping, force, velocity,
+                                           select(free, one / select(free, inverse, one), zero));
         } else {
             return Damping::particle_force(damping, force, velocity);
         }

@@ -39,8 +39,9 @@ public:
         detail::require_finite_points(points);
         sort_into_cells(points, radii, detail::require_radii(radii, points.size(), margin), margin);
         if (threads_ == 1 || points.size() < 10000) return pairs(out);
-        detail::join_pairs(points.size(), threads_, parts_, out,
-                           [&](std::size_t first, std::size_t last, auto& part) { return pairs_of(first, last, part); });
+        detail::join_pairs(points.size(), threads_, parts_, out, [&](std::size_t first, std::size_t last, auto& part) {
+            return pairs_of(first, last, part);
+        });
     }
     /// touching_pairs() uses this many threads; the pairs are the same for any number.
     void set_threads(int threads) noexcept { threads_ = threads; }
@@ -113,7 +114,8 @@ private:
             if (grid.count == 0) continue;
             grid.base = base;
             Real width = 2 * grid.reach;
-            if (!(width > std::numeric_limits<Real>::min() * 4)) width = width_of_points(grid.low, grid.high, grid.count);
+            if (!(width > std::numeric_limits<Real>::min() * 4))
+                width = width_of_points(grid.low, grid.high, grid.count);
             grid.cells_per_length = 1 / width;
             fit(grid, points);
             base += grid.cells;
@@ -196,7 +198,8 @@ private:
             // A huge particle among small ones reaches more cells than the table has.
             double rows = double(high[1] - low[1]) + 1;
             if constexpr (Dim == 3) rows *= double(high[2] - low[2]) + 1;
-            if (rows * double(width) > double(grid.cells)) return scan<false>(grid.base, grid.cells, i, own, x, 0, found, out);
+            if (rows * double(width) > double(grid.cells))
+                return scan<false>(grid.base, grid.cells, i, own, x, 0, found, out);
         }
         cell_index c = low;
         for (;;) {

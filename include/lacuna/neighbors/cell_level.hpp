@@ -42,7 +42,8 @@ struct cell_level {
     /// True if the bounding box excludes particles within `distance` of a point.
     bool away(vec<Real, Dim> const& x, Real distance) const noexcept {
         bool any = false;
-        for (int axis = 0; axis < Dim; ++axis) any = any || x[axis] + distance < low[axis] || x[axis] - distance > high[axis];
+        for (int axis = 0; axis < Dim; ++axis)
+            any = any || x[axis] + distance < low[axis] || x[axis] - distance > high[axis];
         return any;
     }
     // Monotonic in x in spite of rounding: the cells of an interval's ends enclose the cells of its points.

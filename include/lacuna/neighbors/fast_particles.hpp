@@ -58,9 +58,10 @@ private:
         int widest = 0;
         Real most = 0;
         for (int axis = 0; axis < Dim; ++axis) {
-            auto const [low, high] = std::minmax_element(fast_.begin(), fast_.end(), [&](std::int32_t a, std::int32_t b) {
-                return reference[std::size_t(a)][axis] < reference[std::size_t(b)][axis];
-            });
+            auto const [low, high] =
+                std::minmax_element(fast_.begin(), fast_.end(), [&](std::int32_t a, std::int32_t b) {
+                    return reference[std::size_t(a)][axis] < reference[std::size_t(b)][axis];
+                });
             Real const width = reference[std::size_t(*high)][axis] - reference[std::size_t(*low)][axis];
             if (width > most) widest = axis;
             most = std::max(most, width);

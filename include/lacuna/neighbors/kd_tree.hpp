@@ -120,10 +120,12 @@ public:
         for (std::size_t i = 0; i < points_->radii.size(); ++i) {
             detail::tree_row<Real, Dim> row(*points_, i, out);
             index_->findNeighbors(row, &points_->coordinates[i * Dim], {});
-            if (out.size() > most_pairs_) throw std::length_error("kd_tree: more than " + std::to_string(most_pairs_) + " pairs");
+            if (out.size() > most_pairs_)
+                throw std::length_error("kd_tree: more than " + std::to_string(most_pairs_) + " pairs");
         }
-        std::sort(out.begin(), out.end(),
-                  [](neighbor_pair const& a, neighbor_pair const& b) { return a.i < b.i || (a.i == b.i && a.j < b.j); });
+        std::sort(out.begin(), out.end(), [](neighbor_pair const& a, neighbor_pair const& b) {
+            return a.i < b.i || (a.i == b.i && a.j < b.j);
+        });
     }
     /// Sets the largest number of pairs. Beyond it, pairs() and touching_pairs() throw std::length_error, so that pairs
     /// do not exhaust the memory. By default there is no limit.

@@ -81,7 +81,8 @@ private:
             real_type const length = period_[axis];
             if (!(length > 0)) continue;
             if (!(length >= 2 * reach.pair))
-                refuse("period", double(length), "at least twice the distance at which particles meet, " + to_text(double(2 * reach.pair)));
+                refuse("period", double(length),
+                       "at least twice the distance at which particles meet, " + to_text(double(2 * reach.pair)));
             for (auto& x : points_) x[axis] -= length * std::floor(x[axis] / length);
             // Includes the images along earlier axes: they give the images at corners.
             std::size_t const present = points_.size();
@@ -111,8 +112,9 @@ private:
             pair = {of_[std::size_t(pair.i)], of_[std::size_t(pair.j)]};
             if (pair.i > pair.j) std::swap(pair.i, pair.j);
         }
-        std::sort(out.begin(), out.end(),
-                  [](neighbor_pair const& a, neighbor_pair const& b) { return a.i < b.i || (a.i == b.i && a.j < b.j); });
+        std::sort(out.begin(), out.end(), [](neighbor_pair const& a, neighbor_pair const& b) {
+            return a.i < b.i || (a.i == b.i && a.j < b.j);
+        });
         out.erase(std::unique(out.begin(), out.end()), out.end());
         std::erase_if(out, [](neighbor_pair const& pair) { return pair.i == pair.j; });
     }

@@ -37,11 +37,11 @@ concept search_build = requires(S search, points_view<typename S::real_type, S::
 template <class S>
 concept search_pairs = requires(S const built, std::vector<neighbor_pair>& out) { built.pairs(out); };
 template <class S>
-concept search_touching_pairs =
-    requires(S search, points_view<typename S::real_type, S::dim> const& points,
-             std::span<typename S::real_type const> radii, typename S::real_type margin, std::vector<neighbor_pair>& out) {
-        search.touching_pairs(points, radii, margin, out);
-    };
+concept search_touching_pairs = requires(S search, points_view<typename S::real_type, S::dim> const& points,
+                                         std::span<typename S::real_type const> radii, typename S::real_type margin,
+                                         std::vector<neighbor_pair>& out) {
+    search.touching_pairs(points, radii, margin, out);
+};
 } // namespace detail
 
 /// Requirements on a neighbour search, such as brute_force, kd_tree and cell_grid.

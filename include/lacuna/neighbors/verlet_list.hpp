@@ -160,7 +160,9 @@ public:
     /// \param more sorted by (i, j), i < j
     void add(std::vector<neighbor_pair> const& more) {
         if (more.empty()) return;
-        auto const before = [](neighbor_pair const& a, neighbor_pair const& b) { return a.i < b.i || (a.i == b.i && a.j < b.j); };
+        auto const before = [](neighbor_pair const& a, neighbor_pair const& b) {
+            return a.i < b.i || (a.i == b.i && a.j < b.j);
+        };
         // Merges from the back, so that no pair is overwritten before it has moved.
         std::size_t old = pairs_.size(), left = more.size();
         pairs_.resize(old + left);
@@ -176,7 +178,8 @@ public:
     parameters const& settings() const noexcept { return parameters_; }
     template <class Archive>
     void serialize(Archive& ar) {
-        ar(pairs_, fixed_length{reference_}, build_count_, own_, fixed_length{allowed_}, fixed_length{path_}, fixed_length{room_});
+        ar(pairs_, fixed_length{reference_}, build_count_, own_, fixed_length{allowed_}, fixed_length{path_},
+           fixed_length{room_});
         require_state(own_.size() == reference_.size(), "the reach of its particles");
         for (std::size_t p = 0; p < pairs_.size(); ++p) {
             auto const [i, j] = pairs_[p];

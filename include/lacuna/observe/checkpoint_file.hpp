@@ -103,7 +103,8 @@ inline std::string pack_checkpoint(checkpoint_content const& content) {
 inline checkpoint_content unpack_checkpoint(std::string_view bytes, std::string const& name) {
     auto const refuse_file = [&](std::string const& why) { throw checkpoint_error("checkpoint " + name + ": " + why); };
     std::string_view rest = bytes;
-    if (rest.substr(0, 8) != std::string_view(detail::checkpoint_magic, 8)) refuse_file("it is not a checkpoint of Lacuna");
+    if (rest.substr(0, 8) != std::string_view(detail::checkpoint_magic, 8))
+        refuse_file("it is not a checkpoint of Lacuna");
     rest.remove_prefix(8);
     std::uint32_t order = 0, format = 0, version[3] = {0, 0, 0}, name_length = 0;
     std::uint64_t length = 0, sum = 0;
@@ -112,7 +113,8 @@ inline checkpoint_content unpack_checkpoint(std::string_view bytes, std::string 
     };
     need(detail::take(rest, order) && detail::take(rest, format) && detail::take(rest, version) &&
          detail::take(rest, name_length));
-    if (order != detail::checkpoint_byte_order) refuse_file("it comes from a machine with another byte order, or is corrupted");
+    if (order != detail::checkpoint_byte_order)
+        refuse_file("it comes from a machine with another byte order, or is corrupted");
     auto const& ours = detail::checkpoint_version;
     bool newer = format > detail::checkpoint_format;
     for (int k = 0, equal = 1; k < 3 && equal; ++k) {
@@ -134,7 +136,8 @@ inline checkpoint_content unpack_checkpoint(std::string_view bytes, std::string 
         rest.remove_prefix(std::size_t(length));
     }
     need(detail::take(rest, sum) && rest.size() >= 8);
-    if (rest != std::string_view(detail::checkpoint_end, 8)) refuse_file("it does not end as it should: it is corrupted");
+    if (rest != std::string_view(detail::checkpoint_end, 8))
+        refuse_file("it does not end as it should: it is corrupted");
     if (sum != checksum_of(bytes.substr(0, bytes.size() - 16)))
         refuse_file("its checksum is wrong: it is corrupted");
     return content;

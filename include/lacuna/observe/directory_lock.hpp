@@ -23,10 +23,13 @@ struct lock_owner {
     std::string started; ///< start time of the process as text from /proc; empty if the system has no /proc
     std::string host;
 
-    std::string text() const { return std::to_string(process) + " " + (started.empty() ? "-" : started) + " " + host + "\n"; }
+    std::string text() const {
+        return std::to_string(process) + " " + (started.empty() ? "-" : started) + " " + host + "\n";
+    }
     /// "process 1234 on HOST"
     std::string name() const {
-        return process <= 0 ? "another process" : "process " + std::to_string(process) + (host.empty() ? "" : " on " + host);
+        return process <= 0 ? "another process"
+                            : "process " + std::to_string(process) + (host.empty() ? "" : " on " + host);
     }
     static lock_owner from(std::string_view text) {
         lock_owner o;
@@ -170,7 +173,8 @@ void remove_unfinished_files(std::filesystem::path const& directory, Rule const&
         if (name.size() <= 5 || name.substr(name.size() - 5) != ".part") continue;
         name.resize(name.size() - 5);
         std::string shorter = name;
-        while (!shorter.empty() && (std::isdigit((unsigned char)(shorter.back())) || shorter.back() == '-')) shorter.pop_back();
+        while (!shorter.empty() && (std::isdigit((unsigned char)(shorter.back())) || shorter.back() == '-'))
+            shorter.pop_back();
         if (shorter.size() < name.size() && !shorter.empty() && shorter.back() == '.') shorter.pop_back();
         if (is_ours(name) || is_ours(shorter)) found.push_back(at->path());
     }

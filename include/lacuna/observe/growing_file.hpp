@@ -72,7 +72,8 @@ public:
         if (lines.empty()) return;
         if (pending_.empty()) since_ = std::chrono::steady_clock::now();
         pending_ += lines;
-        if (pending_.size() >= most_waiting || std::chrono::steady_clock::now() - since_ > std::chrono::seconds(1)) flush();
+        if (pending_.size() >= most_waiting || std::chrono::steady_clock::now() - since_ > std::chrono::seconds(1))
+            flush();
     }
     /// Writes the lines that wait. \throws std::runtime_error on failure; the file then still consists of whole lines
     void flush() { write(false); }
@@ -92,7 +93,8 @@ public:
         std::uint64_t left = mark.bytes;
         char buffer[16384];
         while (left > 0) {
-            std::size_t const got = std::fread(buffer, 1, std::size_t(std::min<std::uint64_t>(left, sizeof buffer)), file);
+            std::size_t const got =
+                std::fread(buffer, 1, std::size_t(std::min<std::uint64_t>(left, sizeof buffer)), file);
             if (got == 0) break;
             sum.add(buffer, got);
             left -= got;
@@ -111,7 +113,8 @@ public:
             whole_file copy(to);
             char buffer[16384];
             while (left > 0) {
-                std::size_t const got = std::fread(buffer, 1, std::size_t(std::min<std::uint64_t>(left, sizeof buffer)), file);
+                std::size_t const got =
+                    std::fread(buffer, 1, std::size_t(std::min<std::uint64_t>(left, sizeof buffer)), file);
                 if (got == 0) throw std::runtime_error("cannot read " + from + ": it is too short");
                 copy.write({buffer, got});
                 left -= got;

@@ -23,17 +23,18 @@ constexpr bool has(stage set, stage one) noexcept { return (unsigned(set) & unsi
 /// The result of on_step. An observer whose on_step returns void never stops a run.
 enum class run_control { go_on, stop };
 
-/// An observer is a class with one or more of the hooks that `stage` lists. A hook may be a template over the simulation, or
-/// take one type of it; so a local class works too.
+/// An observer is a class with one or more of the hooks that `stage` lists. A hook may be a template over the
+/// simulation, or take one type of it; so a local class works too.
 ///
-/// With `static constexpr stage stages` an observer declares its hooks. Each declared hook must be callable, and no other may
-/// exist: a misspelt hook is a compile error. With `static constexpr bool needs_energy = true`, the energy ledger is computed
-/// in all steps of its runs. With a member `bool needs_energy_in(long long step) const`, it is computed in the steps for which
-/// this is true, counted from 0. After a step without it, a new ledger starts.
+/// With `static constexpr stage stages` an observer declares its hooks. Each declared hook must be callable, and no
+/// other may exist: a misspelt hook is a compile error. With `static constexpr bool needs_energy = true`, the energy
+/// ledger is computed in all steps of its runs. With a member `bool needs_energy_in(long long step) const`, it is
+/// computed in the steps for which this is true, counted from 0. After a step without it, a new ledger starts.
 template <class O>
 concept observer = std::is_class_v<std::remove_cvref_t<O>>;
 
-/// Observer that calls `call(simulation const&)` after every step whose number is a multiple of the interval; see every().
+/// Observer that calls `call(simulation const&)` after every step whose number is a multiple of the interval; see
+/// every().
 template <class Call>
 class every_steps {
 public:
@@ -138,8 +139,9 @@ constexpr void check_observer() {
                       "observer declares stage::start but on_start(simulation const&) cannot be called");
         static_assert(steps || !has(wanted, stage::step),
                       "observer declares stage::step but on_step(simulation const&) cannot be called");
-        static_assert(breaks || !has(wanted, stage::breakage),
-                      "observer declares stage::breakage but on_break(break_event const&, simulation const&) cannot be called");
+        static_assert(
+            breaks || !has(wanted, stage::breakage),
+            "observer declares stage::breakage but on_break(break_event const&, simulation const&) cannot be called");
         static_assert(ends || !has(wanted, stage::end),
                       "observer declares stage::end but on_end(simulation const&) cannot be called");
         // The opposite mistake: a hook without its declared stage would silently never be called.

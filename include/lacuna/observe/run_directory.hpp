@@ -38,9 +38,10 @@ public:
     ///         locks
     /// \throws std::invalid_argument if another run owns the directory, if it has results that must not be replaced or
     ///         kept, or if it cannot be written
-    run_directory(std::string const& path, std::string const& field, std::vector<std::string> results, earlier_results earlier,
-                  std::string const& lock = "lacuna.lock")
-        : path_(path.empty() ? "." : path), field_(field), results_(std::move(results)), earlier_(earlier), lock_(file(lock)) {
+    run_directory(std::string const& path, std::string const& field, std::vector<std::string> results,
+                  earlier_results earlier, std::string const& lock = "lacuna.lock")
+        : path_(path.empty() ? "." : path), field_(field), results_(std::move(results)), earlier_(earlier),
+          lock_(file(lock)) {
         try {
             open();
         } catch (...) {
@@ -109,7 +110,8 @@ private:
         if (earlier_ != earlier_results::refuse) return;
         auto const names = results();
         if (!names.empty())
-            refuse_it("a directory without results of an earlier run (it holds " + names.front() + "); --force replaces them");
+            refuse_it("a directory without results of an earlier run (it holds " + names.front() +
+                      "); --force replaces them");
     }
     void open() {
         namespace fs = std::filesystem;

@@ -46,19 +46,23 @@ struct vtk_surface {
     ///         reserves, corners that are not points, and tetrahedra without four corners
     void validate() const {
         std::size_t const points = coordinates.size() / 3;
-        if (coordinates.size() % 3 != 0) refuse("vtk_surface.coordinates.size()", double(coordinates.size()), "a multiple of 3");
+        if (coordinates.size() % 3 != 0)
+            refuse("vtk_surface.coordinates.size()", double(coordinates.size()), "a multiple of 3");
         for (auto const corner : connectivity)
-            if (corner < 0 || std::size_t(corner) >= points) refuse("vtk_surface.connectivity", double(corner), "a point");
+            if (corner < 0 || std::size_t(corner) >= points)
+                refuse("vtk_surface.connectivity", double(corner), "a point");
         if (!offsets.empty() && std::size_t(offsets.back()) != connectivity.size())
             refuse("vtk_surface.offsets", double(offsets.back()), "the size of connectivity at the end");
         for (std::size_t c = 0; kind == cells::tetrahedra && c < offsets.size(); ++c)
-            if (offsets[c] != std::int64_t(4 * (c + 1))) refuse("vtk_surface.offsets", double(offsets[c]), "four corners per tetrahedron");
+            if (offsets[c] != std::int64_t(4 * (c + 1)))
+                refuse("vtk_surface.offsets", double(offsets[c]), "four corners per tetrahedron");
         auto const check = [](std::vector<vtk_array> const& arrays, std::size_t count) {
             for (vtk_array const& a : arrays)
                 if (a.name.find_first_of("<>&\"") != std::string::npos)
                     refuse("vtk_surface array", a.name, "a name without <, >, & and quotes");
                 else if (a.components < 1 || a.values.size() != count * std::size_t(a.components))
-                    refuse("vtk_surface." + a.name, double(a.values.size()), "one value per point or cell and component");
+                    refuse("vtk_surface." + a.name, double(a.values.size()),
+                           "one value per point or cell and component");
         };
         check(point_data, points);
         check(cell_data, offsets.size());
@@ -89,8 +93,9 @@ std::string vtk_text(vtk_surface const& s, Storage const& = {}) {
     text += std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian";
     text += "\" header_type=\"UInt64\"" + std::string(Storage::attribute) + ">\n<" + grid + ">\n";
     auto const append = [&](auto const& values, std::string const& type, std::string const& name, int components) {
-        text += "<DataArray type=\"" + type + "\" Name=\"" + name + "\" NumberOfComponents=\"" + std::to_string(components) +
-                "\" format=\"appended\" offset=\"" + std::to_string(data.size()) + "\"/>\n";
+        text += "<DataArray type=\"" + type + "\" Name=\"" + name + "\" NumberOfComponents=\"" +
+                std::to_string(components) + "\" format=\"appended\" offset=\"" + std::to_string(data.size()) +
+                "\"/>\n";
         Storage::append(data, values.data(), values.size() * sizeof values[0]);
     };
     auto const number = [](std::size_t n) {

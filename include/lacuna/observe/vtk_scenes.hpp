@@ -44,7 +44,8 @@ vtk_surface vtk_points(Simulation const& sim, vtk_surface::cells kind) {
 
 } // namespace detail
 
-/// Particles as points: radius m, material, mass kg, velocity m/s, spin rad/s, orientation (unit quaternion x, y, z, w).
+/// Particles as points: radius m, material, mass kg, velocity m/s, spin rad/s, orientation (unit quaternion x, y, z,
+/// w).
 template <class Simulation>
 vtk_surface vtk_particles(Simulation const& sim) {
     auto s = detail::vtk_points(sim, vtk_surface::cells::points);

@@ -58,9 +58,10 @@ struct packing {
             refuse("packing.bond_type.size()", double(bond_type.size()), "one per bond, or none");
         for (int const type : bond_type)
             if (values == 0 && type != bond_type[0])
-                refuse("parameters.bonds", "none", "one entry per bond, by_bond_type(): the packing has bonds of types " +
-                                                       std::to_string(bond_type[0] + 1) + " and " + std::to_string(type + 1) +
-                                                       "; or packing.bond_type cleared");
+                refuse("parameters.bonds", "none",
+                       "one entry per bond, by_bond_type(): the packing has bonds of types " +
+                           std::to_string(bond_type[0] + 1) + " and " + std::to_string(type + 1) +
+                           "; or packing.bond_type cleared");
     }
     /// Checks that the packing fits into a domain.
     /// \param domain period of the domain, 0 along open axes, m
@@ -68,7 +69,8 @@ struct packing {
     void require_period(vec<double, Dim> const& domain) const {
         for (int axis = 0; axis < Dim; ++axis)
             if (period[axis] > 0 && period[axis] != domain[axis])
-                refuse("domain.period", domain[axis], "that of the packing's box along this axis, " + to_text(period[axis]));
+                refuse("domain.period", domain[axis],
+                       "that of the packing's box along this axis, " + to_text(period[axis]));
     }
 };
 

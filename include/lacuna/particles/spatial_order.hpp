@@ -97,8 +97,10 @@ std::vector<std::int32_t> spatial_order(points_view<Real, Dim> points) {
     for (std::size_t i = 0; i < points.size(); ++i) {
         std::uint32_t cell[std::size_t(Dim)];
         for (int axis = 0; axis < Dim; ++axis)
-            cell[axis] = span > 0 ? std::uint32_t(std::clamp((double(points(i, axis)) - low[axis]) / span, 0.0, 1.0) * 65535.0 + 0.5)
-                                  : 0u;
+            cell[axis] =
+                span > 0
+                    ? std::uint32_t(std::clamp((double(points(i, axis)) - low[axis]) / span, 0.0, 1.0) * 65535.0 + 0.5)
+                    : 0u;
         keyed[i] = {detail::hilbert_key<Dim, bits>(cell), std::int32_t(i)};
     }
     std::sort(keyed.begin(), keyed.end(), before);

@@ -90,7 +90,8 @@ public:
             double const rho = packing.density.empty() ? density[std::size_t(material)] : packing.density[id];
             require_positive(name + ".density", rho);
             bool const disc = masses == mass_model::disc && Dim == 2;
-            double const mass = disc ? rho * std::numbers::pi * r * r * thickness : rho * 4 / 3 * std::numbers::pi * r * r * r;
+            double const mass =
+                disc ? rho * std::numbers::pi * r * r * thickness : rho * 4 / 3 * std::numbers::pi * r * r * r;
             inertia_share_ = disc ? 0.5 : 0.4;
             double const inertia = inertia_share_ * mass * r * r;
             if (!(mass >= min_normal()) || !(inertia >= min_normal()))
@@ -241,7 +242,8 @@ public:
     template <class Archive>
     void serialize(Archive& ar) {
         ar(body_, surface_speed_, quaternion_, fixed_length{free_}, fixed_length{loads_at_});
-        auto const blocks = std::int32_t(std::count_if(loads_at_.begin(), loads_at_.end(), [](auto at) { return at >= 0; }));
+        auto const blocks =
+            std::int32_t(std::count_if(loads_at_.begin(), loads_at_.end(), [](auto at) { return at >= 0; }));
         for (auto const at : loads_at_) require_state(at >= -1 && at < blocks, "the index of a block of loads");
         load_.resize(load_block * std::size_t(blocks));
         ar(load_);

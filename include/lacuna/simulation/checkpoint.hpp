@@ -90,7 +90,8 @@ struct given_values {
     /// Describes the first difference between the input of a checkpoint and this one; empty if there is none.
     std::string differs(given_values const& saved) const {
         auto const message = [](char const* what, difference const& d) {
-            return "it was made with other " + std::string(what) + ": " + d.path + " = " + d.first + ", here " + d.second;
+            return "it was made with other " + std::string(what) + ": " + d.path + " = " + d.first + ", here " +
+                   d.second;
         };
         if (auto const d = first_difference(saved.settings, settings, "")) return message("settings", *d);
         if (auto const d = first_difference(saved.particles, particles, "particles")) return message("particles", *d);

@@ -176,9 +176,9 @@ private:
             stiff_bound_.add_rotational(0, 1, normal, double(turning.bending), double(turning.twisting));
         }
         if constexpr (Model::damping::acts_on_pairs)
-            viscous_bound_.add_pair(0, 1, normal,
-                                    Model::damping::pair_force(damping, k.normal, b ? mi : 2 * mi, b ? mj : 2 * mi, 1.0), 0,
-                                    0, ri, rj);
+            viscous_bound_.add_pair(
+                0, 1, normal, Model::damping::pair_force(damping, k.normal, b ? mi : 2 * mi, b ? mj : 2 * mi, 1.0), 0,
+                0, ri, rj);
         double const w = stiff_bound_.frequency(), c = viscous_bound_.frequency();
         return {w * w, c * c};
     }
@@ -187,7 +187,8 @@ private:
     frequency_bound<dim> stiff_bound_, viscous_bound_;
     double smallest_ = 0;
     bool known_ = false;
-    double overlap_ = 0, speed_ = 0, stopping_share_ = 0, stiff_ = 0, viscous_ = 0, crowd_stiff_ = 0, crowd_viscous_ = 0;
+    double overlap_ = 0, speed_ = 0, stopping_share_ = 0, stiff_ = 0, viscous_ = 0, crowd_stiff_ = 0,
+           crowd_viscous_ = 0;
 };
 
 } // namespace lacuna

@@ -117,7 +117,8 @@ private:
         double const share = s_.walls.fastest() * dt / double(s_.guards.smallest_radius());
         if (double const limit = s_.settings.guards.largest_motion(); share > limit)
             throw_unstable(s_.store, clock_.now(), -1,
-                           "a wall moved " + to_text(share) + " of the smallest radius in one step (limit " + to_text(limit) + ")",
+                           "a wall moved " + to_text(share) + " of the smallest radius in one step (limit " +
+                               to_text(limit) + ")",
                            "its velocity is too high");
     }
 
@@ -155,7 +156,8 @@ private:
         std::vector<char> done(2 * s_.store.size(), 0); // velocities, spins
         auto const once = [&](std::size_t k, bool spin) {
             if (std::exchange(done[2 * k + spin], char(1))) return;
-            spin ? set_spin_back(s_.store, force_on(k), k, half_step) : set_velocity_back(s_.store, force_on(k), k, half_step);
+            spin ? set_spin_back(s_.store, force_on(k), k, half_step)
+                 : set_velocity_back(s_.store, force_on(k), k, half_step);
         };
         for (auto const& c : s_.changes) once(c.particle, c.of_spin);
         for (std::size_t k = 0; clock_.step() == 0 && k < s_.store.size(); ++k)
@@ -171,7 +173,9 @@ private:
             set_spin_back(s_.store, force, k, too_long);
         }
     }
-    particle_force<real, dim> force_on(std::size_t k) const { return total_force(s_.store, s_.pairs, s_.other_forces, k); }
+    particle_force<real, dim> force_on(std::size_t k) const {
+        return total_force(s_.store, s_.pairs, s_.other_forces, k);
+    }
 
     template <bool WithEnergy>
     void move_particles() {
@@ -221,8 +225,8 @@ private:
         if constexpr (WithEnergy) {
             auto energy = s_.pairs.energy();
             energy += s_.wall_energy;
-            s_.ledger.keep(energy, s_.pairs.fracture_energy(), s_.reports, double(previous_), double(dt_), s_.fluid.get(),
-                           s_.wall_power, s_.own_power, laws_state_energies);
+            s_.ledger.keep(energy, s_.pairs.fracture_energy(), s_.reports, double(previous_), double(dt_),
+                           s_.fluid.get(), s_.wall_power, s_.own_power, laws_state_energies);
             s_.guards.check_energy(s_.store, s_.ledger.ledger(), double(dt_), clock_.now());
         } else {
             s_.ledger.close();

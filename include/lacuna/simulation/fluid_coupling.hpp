@@ -58,7 +58,8 @@ public:
     template <class Pairs>
     void map_throats(Pairs const& pairs) {
         if constexpr (has_fluid<Model>)
-            if (flow_) flow_->map_throats([&](std::int32_t i, std::int32_t j) { return pairs.find_normal_force(i, j); });
+            if (flow_)
+                flow_->map_throats([&](std::int32_t i, std::int32_t j) { return pairs.find_normal_force(i, j); });
     }
 
     /// Makes one step of the fluid: geometry, apertures, flow, pressures. Writes the forces of the pressures to `out`.
@@ -80,7 +81,8 @@ public:
                 } catch (std::invalid_argument const& why) {
                     if (number == 0) throw;
                     // After step 0 the cause is the run, not the input.
-                    throw unstable_run("unstable run at step " + std::to_string(number) + ": " + why.what(), number, -1);
+                    throw unstable_run("unstable run at step " + std::to_string(number) + ": " + why.what(), number,
+                                       -1);
                 }
             }
     }
@@ -115,7 +117,8 @@ public:
     void archive(Archive& ar, store_type const& store) {
         bool filled = flow_.has_value();
         ar(filled);
-        require_state(filled == flow_.has_value(), "its pores are filled and those of this simulation are not, or vice versa");
+        require_state(filled == flow_.has_value(),
+                      "its pores are filled and those of this simulation are not, or vice versa");
         if constexpr (has_fluid<Model>) {
             if (remesher_.on()) remesher_.archive(ar, *flow_, store.radii().data());
             if (filled) ar(*flow_);
@@ -135,10 +138,13 @@ private:
     template <class Pairs>
     bool remesh_if_needed(store_type const& store, Pairs const& pairs, long long number) {
         try {
-            return by_id(store, [&] { return remesher_.remesh(*flow_, store.positions(), store.radii().data(), pairs, number); });
+            return by_id(store, [&] {
+                return remesher_.remesh(*flow_, store.positions(), store.radii().data(), pairs, number);
+            });
         } catch (std::invalid_argument const& why) {
             // The cause is the run, not the input.
-            throw unstable_run("new mesh of the pores after step " + std::to_string(number) + ": " + why.what(), number, -1);
+            throw unstable_run("new mesh of the pores after step " + std::to_string(number) + ": " + why.what(), number,
+                               -1);
         }
     }
 

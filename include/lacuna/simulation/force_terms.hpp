@@ -66,12 +66,14 @@ struct fluid_term {
             s.fluid.map_throats(s.pairs);
             s.fluid.deactivate_slow_throats(s.store, s.pairs);
         }
-        s.fluid.template step<WithEnergy>(s.store, s.pairs, step.previous, step.now.step, s.settings.threads, s.other_forces);
+        s.fluid.template step<WithEnergy>(s.store, s.pairs, step.previous, step.now.step, s.settings.threads,
+                                          s.other_forces);
         step.remeshed = s.fluid.remesh(s.store, s.pairs, step.now.step);
     }
     template <class State, class Bound>
     static void add_stiffness(State const& s, contact_assumption const&, double, Bound& stiff, Bound&) {
-        if constexpr (has_fluid<typename State::model_type>) detail::add_fluid_stiffness(stiff, s.store, *s.fluid.get());
+        if constexpr (has_fluid<typename State::model_type>)
+            detail::add_fluid_stiffness(stiff, s.store, *s.fluid.get());
     }
 };
 
@@ -101,21 +103,25 @@ struct wall_term {
         auto const beyond = s.walls.evaluate(s.store, step.previous, s.settings.damping, s.other_forces, s.wall_energy);
         if (beyond >= 0 && s.settings.guards.walls)
             throw_unstable(s.store, step.now, beyond, "its centre is beyond a wall",
-                           step.now.step == 0 ? "it is there from the start: a wall's point or normal, or the particle's position"
-                                              : "the load or speed is too high for the stiffness of the wall");
+                           step.now.step == 0
+                               ? "it is there from the start: a wall's point or normal, or the particle's position"
+                               : "the load or speed is too high for the stiffness of the wall");
     }
     template <class State, class Bound>
     static void add_stiffness(State const& s, contact_assumption const& assumed, double, Bound& stiff, Bound& viscous) {
         using damping = typename State::damping_type;
-        s.walls.for_each_stiffness(s.store, assumed, [&](std::size_t k, auto const& normal, double kn, double ks, double lever) {
-            stiff.add_support(k, normal, kn, ks, lever);
-            double const twice = 2 * double(s.store.mass(k));
-            if constexpr (damping::acts_on_pairs)
-                viscous.add_support(k, normal, damping::pair_force(s.settings.damping, kn, twice, twice, 1.0), 0, lever);
-        });
-        s.walls.for_each_moment_stiffness(s.store, assumed, [&](std::size_t k, auto const& normal, auto const& stiffness) {
-            stiff.add_rotational(k, normal, stiffness.bending, stiffness.twisting);
-        });
+        s.walls.for_each_stiffness(
+            s.store, assumed, [&](std::size_t k, auto const& normal, double kn, double ks, double lever) {
+                stiff.add_support(k, normal, kn, ks, lever);
+                double const twice = 2 * double(s.store.mass(k));
+                if constexpr (damping::acts_on_pairs)
+                    viscous.add_support(k, normal, damping::pair_force(s.settings.damping, kn, twice, twice, 1.0), 0,
+                                        lever);
+            });
+        s.walls.for_each_moment_stiffness(s.store, assumed,
+                                          [&](std::size_t k, auto const& normal, auto const& stiffness) {
+                                              stiff.add_rotational(k, normal, stiffness.bending, stiffness.twisting);
+                                          });
     }
 };
 
@@ -145,7 +151,9 @@ struct rigid_plate_term {
     }
     template <bool WithEnergy, class State, class Step>
     static void add_forces(State& s, Step&) {
-        s.plates.share(s.store, [&](std::size_t k) { return total_force(s.store, s.pairs, s.other_forces, k).force; }, s.other_forces);
+        s.plates.share(
+            s.store, [&](std::size_t k) { return total_force(s.store, s.pairs, s.other_forces, k).force; },
+            s.other_forces);
     }
     template <class State, class Bound>
     static void add_stiffness(State const&, contact_assumption const&, double, Bound&, Bound&) {}
@@ -165,7 +173,8 @@ struct term_list {
         ((Terms::active(s) ? Terms::template add_forces<WithEnergy>(s, step) : void()), ...);
     }
     template <class State, class Bound>
-    static void add_stiffness(State const& s, contact_assumption const& assumed, double time, Bound& stiff, Bound& viscous) {
+    static void add_stiffness(State const& s, contact_assumption const& assumed, double time, Bound& stiff,
+                              Bound& viscous) {
         // A fold over an assignment evaluates from right to left.
         int order = 0;
         ((Terms::active(s) ? Terms::add_stiffness(s, assumed, time, stiff, viscous) : void(), order) = ... = 0);

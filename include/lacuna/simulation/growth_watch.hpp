@@ -32,7 +32,8 @@ public:
 
     /// Examines the state after a step.
     /// \param least motion below this is rounding, m
-    void look(particle_store<Real, Dim> const& store, long long step, largest_motion<Real> const& moved, Real least) noexcept {
+    void look(particle_store<Real, Dim> const& store, long long step, largest_motion<Real> const& moved,
+              Real least) noexcept {
         if (follows_) count_reversals(store);
         if (step % window != 0) return;
         std::array<Real, 2> const now{moved.path, moved.arc};

@@ -35,7 +35,9 @@ struct guard_parameters {
     bool pores = true;
 
     /// overlap_limit; infinite if the guard is off.
-    double largest_overlap() const noexcept { return overlap ? overlap_limit : std::numeric_limits<double>::infinity(); }
+    double largest_overlap() const noexcept {
+        return overlap ? overlap_limit : std::numeric_limits<double>::infinity();
+    }
     /// motion_limit; infinite if the guard is off.
     double largest_motion() const noexcept { return motion ? motion_limit : std::numeric_limits<double>::infinity(); }
     /// \throws std::invalid_argument with the part, the field, the value and the rule

@@ -48,9 +48,9 @@ template <class Real, int Dim>
 /// \throws unstable_run for a velocity that is not a number, a particle that moved further than the limit, and a
 ///         particle that rotated by more than ten times the limit in rad
 template <class Real, int Dim, class Cause>
-largest_motion<Real> checked_motion(particle_store<Real, Dim> const& store, std::span<motion_report<Real> const> reports,
-                                    Real time_step, Real smallest_radius, double limit, moment const& now,
-                                    Cause const& cause) {
+largest_motion<Real> checked_motion(particle_store<Real, Dim> const& store,
+                                    std::span<motion_report<Real> const> reports, Real time_step, Real smallest_radius,
+                                    double limit, moment const& now, Cause const& cause) {
     record<Real> fastest(Real(0)), turning(Real(0)), poison(Real(0));
     for (auto const& r : reports) {
         fastest = max(r.fastest, fastest);
@@ -75,7 +75,8 @@ largest_motion<Real> checked_motion(particle_store<Real, Dim> const& store, std:
             Real const own = norm(store.velocity(k)) * time_step / store.radius(k);
             if (own > Real(limit))
                 throw_unstable(store, now, std::int32_t(k),
-                               "it moved " + to_text(double(own)) + " of its radius in one step (limit " + to_text(limit) + ")",
+                               "it moved " + to_text(double(own)) + " of its radius in one step (limit " +
+                                   to_text(limit) + ")",
                                cause(std::int32_t(k)));
         }
     Real const most = Real(10 * limit);
@@ -83,7 +84,8 @@ largest_motion<Real> checked_motion(particle_store<Real, Dim> const& store, std:
         for (std::size_t k = 0; k < store.size(); ++k)
             if (Real const own = norm(store.spin(k)) * time_step; own > most)
                 throw_unstable(store, now, std::int32_t(k),
-                               "it rotated by " + to_text(double(own)) + " rad in one step (limit " + to_text(10 * limit) + ")",
+                               "it rotated by " + to_text(double(own)) + " rad in one step (limit " +
+                                   to_text(10 * limit) + ")",
                                cause(std::int32_t(k)));
     return moved;
 }
@@ -98,7 +100,9 @@ std::int32_t fastest_particle(particle_store<Real, Dim> const& store) noexcept {
 }
 
 /// Text about growing speeds for the messages of unstable_run.
-inline std::string growth_text() { return "the speeds grow fourfold in every 16 steps and reverse in nearly every step"; }
+inline std::string growth_text() {
+    return "the speeds grow fourfold in every 16 steps and reverse in nearly every step";
+}
 
 /// \throws unstable_run if growth_watch finds that energy runs away
 template <class Real, int Dim>
@@ -115,7 +119,8 @@ void check_growth(particle_store<Real, Dim> const& store, growth_watch<Real, Dim
 /// \param rounding energy that rounding may have made, J
 /// \throws unstable_run if more than half of the energy of a run has no source, and more than rounding can make
 template <class Real, int Dim>
-void check_energy(particle_store<Real, Dim> const& store, energy_ledger const& ledger, double rounding, moment const& now) {
+void check_energy(particle_store<Real, Dim> const& store, energy_ledger const& ledger, double rounding,
+                  moment const& now) {
     if (double const residual = ledger.residual(); residual > 0.5 * ledger.largest() && residual > rounding)
         throw_unstable(store, now, fastest_particle(store),
                        "it is the fastest, and " + to_text(residual) + " J of at most " + to_text(ledger.largest()) +
@@ -156,8 +161,8 @@ std::string crushed_bond([[maybe_unused]] particle_store<Real, Dim> const& store
             Real const distance = norm(store.nearest(store.position(j) - store.position(i)));
             if (Law::stiffness(row) * (distance - bonds.get(s).state.rest_distance) > Real(-0.999) * limit) continue;
             auto const ids = std::minmax({store.id(i), store.id(j)}); // by value
-            return "bond " + std::to_string(bonds.label(s)) + " between particles " + std::to_string(ids.first) + " and " +
-                   std::to_string(ids.second) + " is crushed: at its limit, " + to_text(double(limit)) +
+            return "bond " + std::to_string(bonds.label(s)) + " between particles " + std::to_string(ids.first) +
+                   " and " + std::to_string(ids.second) + " is crushed: at its limit, " + to_text(double(limit)) +
                    " N in compression, it yields without limit";
         }
     }
@@ -167,7 +172,8 @@ std::string crushed_bond([[maybe_unused]] particle_store<Real, Dim> const& store
 /// Describes the bond of two particles that overlap too far; "" if they were never bonded.
 /// \param i, j internal indices
 template <class Law, class Real, int Dim, class Interactions>
-std::string bond_between(particle_store<Real, Dim> const& store, Interactions const& pairs, std::int32_t i, std::int32_t j) {
+std::string bond_between(particle_store<Real, Dim> const& store, Interactions const& pairs, std::int32_t i,
+                         std::int32_t j) {
     auto const a = store.id(std::size_t(i)), b = store.id(std::size_t(j));
     auto const& records = pairs.bond_records();
     for (std::size_t n = 0; n < records.size(); ++n) {
@@ -177,11 +183,12 @@ std::string bond_between(particle_store<Real, Dim> const& store, Interactions co
         using parameters = typename Law::template parameters<Real>;
         if constexpr (requires(parameters p, Real r) { Law::template compressive_limit<Dim>(p, r, r); }) {
             auto const& row = pairs.bond_parameters().row[pairs.row_of_bond(store, std::int32_t(n))];
-            Real const limit = Law::template compressive_limit<Dim>(row, store.radius(std::size_t(i)), store.radius(std::size_t(j)));
+            Real const limit =
+                Law::template compressive_limit<Dim>(row, store.radius(std::size_t(i)), store.radius(std::size_t(j)));
             if (double(limit) < 1e20)
                 return text + "is crushed: at its limit, " + to_text(double(limit)) +
-                       " N in compression, it yields without limit; a greater strength, a smaller load, or a law of bonds "
-                       "that does not yield in compression";
+                       " N in compression, it yields without limit; a greater strength, a smaller load, or a law of "
+                       "bonds that does not yield in compression";
         }
         return text + "is compressed by more than it can bear: the load is too high for its stiffness";
     }
@@ -204,9 +211,10 @@ void check_pores(particle_store<Real, Dim> const& store, pore_network<Real, Dim>
         if (size > (Dim == 2 ? Real(0) : Real(-0.1) * net.size[p])) continue;
         std::string who;
         for (auto const k : corners) who += " " + std::to_string(store.id(std::size_t(k)));
-        std::string cause = "particles have passed each other: the deformation is too large for the initial mesh of the "
-                            "pores; " +
-                            std::string(Dim == 2 ? "remeshing makes a new mesh" : "in 3D there is no remeshing");
+        std::string cause =
+            "particles have passed each other: the deformation is too large for the initial mesh of the "
+            "pores; " +
+            std::string(Dim == 2 ? "remeshing makes a new mesh" : "in 3D there is no remeshing");
         if (std::string const bond = crushed(); !bond.empty()) cause += "; " + bond;
         throw_unstable(store, now, corners[0],
                        "pore " + std::to_string(p) + " between particles" + who + " is inverted: its " +

@@ -16,9 +16,9 @@ namespace lacuna {
 
 /// The time step limits of a simulation in its present state, s.
 struct time_step_limits {
-    double wave_limit = 0;        ///< the paper's eq. 9, distance over wave speed: least sqrt(m / k) of the counted pairs
+    double wave_limit = 0; ///< the paper's eq. 9, distance over wave speed: least sqrt(m / k) of the counted pairs
     double mean_throat_limit = 0; ///< the paper's eq. 19, for the fluid; infinite if the flow has no such limit
-    double flow = 0;              ///< rigorous, for the fluid alone with its substeps and interval; infinite without flow
+    double flow = 0; ///< rigorous, for the fluid alone with its substeps and interval; infinite without flow
     double rigorous = 0;          ///< rigorous, for particles with rotation, damping and the stiffness of the fluid
     /// Stable limit of the whole model, s: a time step must not exceed it.
     double critical() const noexcept { return rigorous < flow ? rigorous : flow; }
@@ -46,12 +46,13 @@ double add_pairs(State const& s, contact_assumption const& assumed, Scratch& scr
     double wave = std::numeric_limits<double>::infinity();
     scratch.with_moments.clear();
     s.pairs.for_each_pair_tangent(s.store, assumed, [&](auto const& t) {
-        scratch.stiff.add_pair(t.i, t.j, t.normal, t.normal_stiffness, t.shear_stiffness, t.prestress, t.lever_i, t.lever_j);
+        scratch.stiff.add_pair(t.i, t.j, t.normal, t.normal_stiffness, t.shear_stiffness, t.prestress, t.lever_i,
+                               t.lever_j);
         double const mass_i = double(s.store.mass(t.i)), mass_j = double(s.store.mass(t.j));
         if constexpr (damping::acts_on_pairs)
             scratch.viscous.add_pair(t.i, t.j, t.normal,
-                                     damping::pair_force(s.settings.damping, t.normal_stiffness, mass_i, mass_j, 1.0), 0, 0,
-                                     t.lever_i, t.lever_j);
+                                     damping::pair_force(s.settings.damping, t.normal_stiffness, mass_i, mass_j, 1.0),
+                                     0, 0, t.lever_i, t.lever_j);
         wave = std::min(wave, std::sqrt(std::min(mass_i, mass_j) / t.normal_stiffness));
         if (t.moments.bending > 0 || t.moments.twisting > 0) scratch.with_moments.push_back(t);
     });
@@ -82,12 +83,14 @@ time_step_limits find_limits(simulation_state<Model> const& s, contact_assumptio
     result.mean_throat_limit = result.flow = std::numeric_limits<double>::infinity();
     if constexpr (has_fluid<Model>)
         if (auto const* flow = s.fluid.get()) {
-            if constexpr (requires { flow->mean_throat_limit(); }) result.mean_throat_limit = double(flow->mean_throat_limit());
+            if constexpr (requires { flow->mean_throat_limit(); })
+                result.mean_throat_limit = double(flow->mean_throat_limit());
             result.flow = flow_limit(*flow);
         }
     double const against_motion = 1 + std::fabs(damping::particle_force(s.settings.damping, 1.0, -1.0));
     double drag_rate = 0;
-    if constexpr (requires { damping::drag_rate(s.settings.damping); }) drag_rate = damping::drag_rate(s.settings.damping);
+    if constexpr (requires { damping::drag_rate(s.settings.damping); })
+        drag_rate = damping::drag_rate(s.settings.damping);
     result.rigorous = scratch.stiff.time_step(scratch.viscous, against_motion, drag_rate);
     return result;
 }

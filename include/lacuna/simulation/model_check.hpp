@@ -64,8 +64,11 @@ constexpr bool explain_law() {
         static_assert(never, "the law needs: template <class T> struct parameters");
     else if constexpr (!law_history<Law, Dim>)
         static_assert(never, "the law needs: template <class T, int Dim> struct history");
-    else if constexpr (!is_plain<typename Law::template parameters<law_pack>> || !is_plain<typename Law::template history<law_pack, Dim>>)
-        static_assert(never, "a law's parameters and history must be plain aggregates: no constructor, private member or container");
+    else if constexpr (!is_plain<typename Law::template parameters<law_pack>> ||
+                       !is_plain<typename Law::template history<law_pack, Dim>>)
+        static_assert(
+            never,
+            "a law's parameters and history must be plain aggregates: no constructor, private member or container");
     else if constexpr (!law_scalar_parameters<Law>)
         return refuse_member<odd_member_type<typename Law::template parameters<law_pack>, law_pack>,
                              odd_member<typename Law::template parameters<law_pack>, law_pack>>();
@@ -73,30 +76,44 @@ constexpr bool explain_law() {
         return refuse_member<odd_member_type<typename Law::template history<law_pack, Dim>, law_pack>,
                              odd_member<typename Law::template history<law_pack, Dim>, law_pack>>();
     else if constexpr (!law_combine<Law>)
-        static_assert(never, "the law needs: static parameters<double> combine(material const&, material const&, double thickness)");
+        static_assert(
+            never,
+            "the law needs: static parameters<double> combine(material const&, material const&, double thickness)");
     else if constexpr (!law_initial<Law, Dim, double> || !law_initial<Law, Dim, law_dual>)
-        static_assert(never, "the law needs, for every T: static history<T, Dim> initial<T, Dim>(T distance, T touching_distance)");
+        static_assert(
+            never,
+            "the law needs, for every T: static history<T, Dim> initial<T, Dim>(T distance, T touching_distance)");
     else if constexpr (!law_evaluate<Law, Dim, double>)
-        static_assert(never, "the law needs: static pair_response (of bonds bond_response) evaluate(parameters<T> const&, "
-                             "pair_motion<T, Dim> const&, history<T, Dim> const&)");
+        static_assert(never,
+                      "the law needs: static pair_response (of bonds bond_response) evaluate(parameters<T> const&, "
+                      "pair_motion<T, Dim> const&, history<T, Dim> const&)");
     else if constexpr (!law_evaluate<Law, Dim, law_pack> || !law_evaluate<Law, Dim, law_dual>)
         static_assert(never, "the law's evaluate() must take every scalar type T: packs and dual numbers too");
     else if constexpr (!law_energies<Law, Dim, double>)
-        static_assert(never, "the law's answer needs both stored_energy and dissipated_energy, T, or none: force_response");
-    else if constexpr (!law_moments<Law, Dim, double> || !law_moments<Law, Dim, law_pack> || !law_moments<Law, Dim, law_dual>)
-        static_assert(never, "a law that carries moments needs: bending_moment in its history, and evaluate(parameters<T>, "
-                             "pair_motion<T, Dim>, pair_rotation<T, Dim>, history<T, Dim>) that answers with_moments");
+        static_assert(never,
+                      "the law's answer needs both stored_energy and dissipated_energy, T, or none: force_response");
+    else if constexpr (!law_moments<Law, Dim, double> || !law_moments<Law, Dim, law_pack> ||
+                       !law_moments<Law, Dim, law_dual>)
+        static_assert(never,
+                      "a law that carries moments needs: bending_moment in its history, and evaluate(parameters<T>, "
+                      "pair_motion<T, Dim>, pair_rotation<T, Dim>, history<T, Dim>) that answers with_moments");
     else if constexpr (!law_stiffness_form<Law, Dim, double> || !law_stiffness_form<Law, Dim, law_pack>)
-        static_assert(never, "the law needs, for every T: static T stiffness(parameters<T> const&), or with pair_motion and "
-                             "history behind");
+        static_assert(never,
+                      "the law needs, for every T: static T stiffness(parameters<T> const&), or with pair_motion and "
+                      "history behind");
     else if constexpr (!law_rotational_stiffness<Law, Dim>)
-        static_assert(never, "a law that carries moments needs: static moment_stiffness<T> rotational_stiffness<Dim>(parameters<T> "
-                             "const&, T radius_i, T radius_j, T distance)");
+        static_assert(
+            never,
+            "a law that carries moments needs: static moment_stiffness<T> rotational_stiffness<Dim>(parameters<T> "
+            "const&, T radius_i, T radius_j, T distance)");
     else if constexpr (bond && !(law_broken<Law, Dim, double> && law_broken<Law, Dim, law_pack>))
-        static_assert(never, "the bond law's evaluate() needs: an answer with broken and broken_in_tension, mask_t<T>: bond_response");
+        static_assert(
+            never,
+            "the bond law's evaluate() needs: an answer with broken and broken_in_tension, mask_t<T>: bond_response");
     else if constexpr (!bond && !law_hand_over<Law, Dim>)
-        static_assert(never, "the contact law needs: static history<T, Dim> hand_over(parameters<T> const&, pair_motion<T, Dim> "
-                             "const&, T normal_force, vec<T, shear_dim<Dim>> const& shear_force)");
+        static_assert(
+            never, "the contact law needs: static history<T, Dim> hand_over(parameters<T> const&, pair_motion<T, Dim> "
+                   "const&, T normal_force, vec<T, shear_dim<Dim>> const& shear_force)");
     return true;
 }
 /// States which part a damping policy lacks.
@@ -104,17 +121,21 @@ template <class Policy>
 constexpr bool explain_damping() {
     constexpr bool never = std::is_void_v<Policy>;
     if constexpr (!damping_parameters<Policy>)
-        static_assert(never, "the damping needs: struct parameters { ...; void validate(std::string const& name) const; }");
+        static_assert(never,
+                      "the damping needs: struct parameters { ...; void validate(std::string const& name) const; }");
     else if constexpr (!damping_flags<Policy>)
         static_assert(never, "the damping needs: static constexpr bool acts_on_pairs, acts_on_particles");
     else if constexpr (!damping_particle_force<Policy, double> || !damping_particle_force<Policy, pack<double, 4>>)
-        static_assert(never, "the damping needs, for every T: static T particle_force(parameters const&, T force, T velocity)");
+        static_assert(
+            never, "the damping needs, for every T: static T particle_force(parameters const&, T force, T velocity)");
     else if constexpr (!damping_inertial_force<Policy, double> || !damping_inertial_force<Policy, pack<double, 4>>)
-        static_assert(never, "a damping with needs_inertia needs, for every T: static T particle_force(parameters const&, T "
-                             "force, T velocity, T inertia), and static double drag_rate(parameters const&)");
+        static_assert(never,
+                      "a damping with needs_inertia needs, for every T: static T particle_force(parameters const&, T "
+                      "force, T velocity, T inertia), and static double drag_rate(parameters const&)");
     else if constexpr (!damping_policy<Policy>)
-        static_assert(never, "a damping that acts_on_pairs needs, for every T: static T pair_force(parameters const&, T "
-                             "stiffness, T mass_i, T mass_j, T normal_rate)");
+        static_assert(never,
+                      "a damping that acts_on_pairs needs, for every T: static T pair_force(parameters const&, T "
+                      "stiffness, T mass_i, T mass_j, T normal_rate)");
     return true;
 }
 template <class Policy, int Dim, class Real>
@@ -123,10 +144,12 @@ constexpr bool explain_flow() {
     if constexpr (flow_policy<Policy, Dim, Real>) {
         return true;
     } else if constexpr (!flow_parameters_slot<Policy>) {
-        static_assert(never, "the flow needs: struct parameters { ...; void validate(std::string const& name) const; }");
+        static_assert(never,
+                      "the flow needs: struct parameters { ...; void validate(std::string const& name) const; }");
     } else if constexpr (!flow_solver_slot<Policy, Real, Dim>) {
-        static_assert(never, "the flow needs: template <class Real, int Dim> class solver, copyable, made from (parameters, "
-                             "pore_network<Real, Dim>, Real thickness, points_view<Real, Dim>, Real const* radii)");
+        static_assert(never,
+                      "the flow needs: template <class Real, int Dim> class solver, copyable, made from (parameters, "
+                      "pore_network<Real, Dim>, Real thickness, points_view<Real, Dim>, Real const* radii)");
     } else {
         using solver = typename Policy::template solver<Real, Dim>;
         if constexpr (!flow_settings<solver>)
@@ -142,8 +165,9 @@ constexpr bool explain_flow() {
         else if constexpr (!flow_deactivate_slow_throats<solver>)
             static_assert(never, "the flow's solver needs: deactivate_slow_throats()");
         else if constexpr (!(flow_step<solver, Real, true> && flow_step<solver, Real, false>))
-            static_assert(never, "the flow's solver needs: template <bool WithLedger> void step(body_column<Real> "
-                                 "const&, Real const* normal_forces, Real dt, int threads, record_column<Real>* tractions)");
+            static_assert(never,
+                          "the flow's solver needs: template <bool WithLedger> void step(body_column<Real> "
+                          "const&, Real const* normal_forces, Real dt, int threads, record_column<Real>* tractions)");
         else if constexpr (!flow_time_step<solver>)
             static_assert(never, "the flow's solver needs: Real critical_time_step() const");
         else if constexpr (!flow_tractions<solver, Real, Dim>)
@@ -164,24 +188,29 @@ template <class Policy, int Dim, class Real>
 constexpr bool explain_forces() {
     constexpr bool never = std::is_void_v<Policy>;
     if constexpr (!forces_parameters<Policy>)
-        static_assert(never, "the forces need: struct parameters { ...; void validate(std::string const& name) const; }, default "
-                             "constructible; see body_force");
+        static_assert(
+            never, "the forces need: struct parameters { ...; void validate(std::string const& name) const; }, default "
+                   "constructible; see body_force");
     else if constexpr (!is_callable_force<Policy, Dim>)
-        static_assert(never, "a body force must be callable as: vec<double, dim> force(acted_particle<dim> const&) const");
+        static_assert(never,
+                      "a body force must be callable as: vec<double, dim> force(acted_particle<dim> const&) const");
     else if constexpr (!forces_term<Policy, Real, Dim>)
-        static_assert(never, "the forces need: template <class Real, int Dim> class term, copyable, made from parameters, with "
-                             "bool active() const");
+        static_assert(
+            never, "the forces need: template <class Real, int Dim> class term, copyable, made from parameters, with "
+                   "bool active() const");
     else if constexpr (!forces_members<Policy, Real, Dim>)
-        static_assert(never, "the forces' term needs: add_forces(particle_store<Real, Dim> const&, double time, int threads, "
-                             "record_column<Real>&), vec<Real, Dim> force(std::size_t) const, double power(store) const");
+        static_assert(never,
+                      "the forces' term needs: add_forces(particle_store<Real, Dim> const&, double time, int threads, "
+                      "record_column<Real>&), vec<Real, Dim> force(std::size_t) const, double power(store) const");
     return true;
 }
 template <class Policy, int Dim>
 constexpr bool explain_integrator() {
     constexpr bool fits = integrator<Policy, Dim>;
-    static_assert(fits, "the integrator needs: static void advance<WithEnergy, Damping>(particle_store<Real, Dim>&, std::size_t "
-                        "first, int count, Real dt, PairForce const&, Damping::parameters const&, record_column<Real> const* "
-                        "extra, motion_report<Real>&)");
+    static_assert(
+        fits, "the integrator needs: static void advance<WithEnergy, Damping>(particle_store<Real, Dim>&, std::size_t "
+              "first, int count, Real dt, PairForce const&, Damping::parameters const&, record_column<Real> const* "
+              "extra, motion_report<Real>&)");
     return true;
 }
 template <class Policy, int Dim>
@@ -190,7 +219,9 @@ constexpr bool explain_domain() {
     if constexpr (!domain_flag<Policy>)
         static_assert(never, "the domain needs: static constexpr bool periodic");
     else if constexpr (!domain_parameters<Policy, Dim>)
-        static_assert(never, "the domain needs: template <int Dim> struct parameters { void validate(std::string const& name) const; }");
+        static_assert(
+            never,
+            "the domain needs: template <int Dim> struct parameters { void validate(std::string const& name) const; }");
     else if constexpr (!domain_period<Policy, Dim>)
         static_assert(never, "a periodic domain needs: vec<double, Dim> period in its parameters");
     return true;
@@ -207,8 +238,9 @@ constexpr bool explain_search() {
     else if constexpr (!search_pairs<Search>)
         static_assert(never, "the search needs: void pairs(std::vector<neighbor_pair>&) const");
     else if constexpr (!search_touching_pairs<Search>)
-        static_assert(never, "the search needs: void touching_pairs(points_view const&, std::span<real_type const> radii, "
-                             "real_type margin, std::vector<neighbor_pair>&)");
+        static_assert(never,
+                      "the search needs: void touching_pairs(points_view const&, std::span<real_type const> radii, "
+                      "real_type margin, std::vector<neighbor_pair>&)");
     return true;
 }
 

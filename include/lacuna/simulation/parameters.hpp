@@ -75,7 +75,8 @@ struct simulation_parameters {
     /// \throws std::invalid_argument with the part, the field, the value and the rule
     void validate() const {
         if (materials.empty()) refuse("materials.size()", 0.0, "at least 1");
-        for (std::size_t m = 0; m < materials.size(); ++m) materials[m].validate("materials[" + std::to_string(m) + "]");
+        for (std::size_t m = 0; m < materials.size(); ++m)
+            materials[m].validate("materials[" + std::to_string(m) + "]");
         require_positive("thickness", thickness);
         for (int axis = 0; axis < dim; ++axis) require_finite("gravity", gravity[axis]);
         require_not_negative("fluid_density", fluid_density);

@@ -47,7 +47,9 @@ protected:
     }
 
 private:
-    particle_store<Real, Dim> const& store() const noexcept { return static_cast<Simulation const&>(*this).particles(); }
+    particle_store<Real, Dim> const& store() const noexcept {
+        return static_cast<Simulation const&>(*this).particles();
+    }
 };
 
 } // namespace lacuna

@@ -18,7 +18,8 @@ void count_paths(simulation_state<Model>& s, typename Model::real time_step) {
     static_assert(state::interactions_type::chunk_particles == state::walls_type::block_particles);
     for (std::size_t c = 0; c < s.reports.size(); ++c) {
         real squared = 0;
-        for (int axis = 0; axis < Model::dim; ++axis) squared += s.reports[c].fastest[axis] * s.reports[c].fastest[axis];
+        for (int axis = 0; axis < Model::dim; ++axis)
+            squared += s.reports[c].fastest[axis] * s.reports[c].fastest[axis];
         real const path = std::sqrt(squared) * time_step;
         s.pairs.add_path(int(c), path);
         s.walls.add_path(c, path);

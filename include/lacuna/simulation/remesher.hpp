@@ -91,15 +91,18 @@ public:
         ar(fixed_length{made_at_});
         if constexpr (Archive::is_loading::value) {
             for (auto const& x : made_at_)
-                for (int axis = 0; axis < Dim; ++axis) require_state(std::isfinite(x[axis]), "where its pores were made");
+                for (int axis = 0; axis < Dim; ++axis)
+                    require_state(std::isfinite(x[axis]), "where its pores were made");
             auto const positions = view_points(made_at_);
             auto network = make_(maker_.get(), positions, radii), saved = network;
             archive_shape(ar, saved);
             require_state(same_shape(saved, network), "its pores were made in another way");
             require_state(saved.size.size() == network.size.size(), "the sizes of its pores");
-            for (Real const size : saved.size) require_state(size > Real(0) && std::isfinite(size), "the size of a pore");
+            for (Real const size : saved.size)
+                require_state(size > Real(0) && std::isfinite(size), "the size of a pore");
             network.size = saved.size;
-            flow.restore(Flow(flow.settings(), std::move(network), thickness_, positions, radii).network(), flow.ledger());
+            flow.restore(Flow(flow.settings(), std::move(network), thickness_, positions, radii).network(),
+                         flow.ledger());
         } else {
             archive_shape(ar, flow.network());
         }

@@ -61,7 +61,8 @@ public:
         auto const velocity = store.velocity(k);
         if (!begun_) velocity_ = velocity;
         begun_ = true;
-        if (!(norm(velocity - velocity_) <= change_ * norm(velocity_)) || !(squared_norm(velocity) > 0)) return stop({});
+        if (!(norm(velocity - velocity_) <= change_ * norm(velocity_)) || !(squared_norm(velocity) > 0))
+            return stop({});
         path_ += convert<double>(velocity) * time_step;
         Real far = 0;
         for (int axis = 0; axis < Dim; ++axis) far = std::max(far, std::abs(store.position(k)[axis]));

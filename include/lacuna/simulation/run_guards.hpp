@@ -46,13 +46,15 @@ public:
     /// \return upper bound of the path of every particle in the step, m
     /// \throws unstable_run as the guards require
     template <class Pairs>
-    real check_motion(store_type const& store, Pairs const& pairs, std::span<motion_report<real> const> reports, real dt,
-                      std::int32_t given, moment const& now) {
+    real check_motion(store_type const& store, Pairs const& pairs, std::span<motion_report<real> const> reports,
+                      real dt, std::int32_t given, moment const& now) {
         auto const cause = [&](std::int32_t k) { return cause_of_motion(store, pairs, k, double(dt), given, now); };
-        auto const moved = checked_motion<real, dim>(store, reports, dt, smallest_radius(), guards_.largest_motion(), now, cause);
+        auto const moved =
+            checked_motion<real, dim>(store, reports, dt, smallest_radius(), guards_.largest_motion(), now, cause);
         growth_.look(store, now.step, moved, 4 * extent_.spacing());
         if (guards_.growth && !unstable_step_) check_growth(store, growth_, moved, smallest_radius(), now);
-        if (auto const pair = pairs.deep_overlap(); pair[0] >= 0) throw_overlap(store, pairs, pair[0], pair[1], now, cause);
+        if (auto const pair = pairs.deep_overlap(); pair[0] >= 0)
+            throw_overlap(store, pairs, pair[0], pair[1], now, cause);
         if constexpr (!is_absent<typename Model::bond_law>) {
             if (now.step % 64 == 63 && guards_.overlap) {
                 auto const& bonds = pairs.bonds();
@@ -67,9 +69,10 @@ public:
     void check_energy(store_type const& store, energy_ledger const& ledger, double dt, moment const& now) const {
         if (!ledger.complete && std::isfinite(ledger.kinetic + ledger.external)) return;
         if (!std::isfinite(ledger.residual()))
-            throw_unstable(store, now, -1, "an energy is not a number",
-                           "a stiffness, a mass, a load or a pressure is so large or so small that it leaves the range of " +
-                               precision_text<real>());
+            throw_unstable(
+                store, now, -1, "an energy is not a number",
+                "a stiffness, a mass, a load or a pressure is so large or so small that it leaves the range of " +
+                    precision_text<real>());
         if (!guards_.energy || unstable_step_ || !(ledger.residual() > 0.5 * ledger.largest())) return;
         // In each step rounding may add the energy of particles that move by one spacing of numbers per step.
         double mass = 0;
@@ -142,7 +145,8 @@ private:
             auto const at = std::size_t(k);
             auto const force = store.applied_force(at);
             bool held = false;
-            for (int axis = 0; axis < dim; ++axis) held = held || (store.held(at, axis) && store.velocity(at)[axis] != 0);
+            for (int axis = 0; axis < dim; ++axis)
+                held = held || (store.held(at, axis) && store.velocity(at)[axis] != 0);
             if (held) add("the velocity that is prescribed to it");
             if (k == given) add("the velocity that it was given");
             if (double(norm(force)) / double(store.mass(at)) * dt * dt > 0.05 * double(store.radius(at)))
@@ -154,8 +158,9 @@ private:
             add("particles that overlap at the start push each other apart, most of all " +
                 std::to_string(start_.particles[0]) + " and " + std::to_string(start_.particles[1]) + ", by " +
                 to_text(start_.deepest) + " of the smaller radius");
-        return found.empty() ? "the time step is above the stable one, or a load, a velocity or a stiffness is very large"
-                             : found;
+        return found.empty()
+                   ? "the time step is above the stable one, or a load, a velocity or a stiffness is very large"
+                   : found;
     }
 
     guard_parameters guards_;

@@ -69,13 +69,15 @@ struct simulation_state {
     /// Gives particle k a velocity, m/s. The ledger counts the change of kinetic energy as external work.
     void apply_velocity_change(std::size_t k, point const& v) {
         changes.add(store, k, false);
-        ledger.book_work(0.5 * double(store.mass(k)) * (squared_norm(v) - squared_norm(convert<double>(store.velocity(k)))));
+        ledger.book_work(0.5 * double(store.mass(k)) *
+                         (squared_norm(v) - squared_norm(convert<double>(store.velocity(k)))));
         store.set_velocity(k, convert<real>(v));
     }
     /// Gives particle k a spin, rad/s, in the same way.
     void apply_spin_change(std::size_t k, vec<double, rotation_dim<dim>> const& w) {
         changes.add(store, k, true);
-        ledger.book_work(0.5 * double(store.moment_of_inertia(k)) * (squared_norm(w) - squared_norm(convert<double>(store.spin(k)))));
+        ledger.book_work(0.5 * double(store.moment_of_inertia(k)) *
+                         (squared_norm(w) - squared_norm(convert<double>(store.spin(k)))));
         store.set_spin(k, convert<real>(w));
     }
 
@@ -111,7 +113,7 @@ struct simulation_state {
     prescribed_motion<dim> motions;
     rigid_plates<real, dim> plates;
     velocity_changes<real, dim> changes;      ///< since the last step
-    record_column<real> other_forces;         ///< all forces but those of pairs and loads, in the layout of the integrators
+    record_column<real> other_forces; ///< all forces but those of pairs and loads, in the layout of the integrators
     std::vector<motion_report<real>> reports; ///< of the last step, by chunk
     std::vector<event_type> events;           ///< failures of the last step
     pair_energy wall_energy;

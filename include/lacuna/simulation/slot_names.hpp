@@ -237,9 +237,11 @@ constexpr bool refuse_misspelt_slots() {
     static_assert(!requires { typename M::searcher; }, "searcher: the slot is search");
     static_assert(!requires { typename M::template searcher<double, 2>; }, "searcher: the slot is search");
     static_assert(!requires { typename M::neighbor_search; }, "neighbor_search: the slot is search");
-    static_assert(!requires { typename M::template neighbor_search<double, 2>; }, "neighbor_search: the slot is search");
+    static_assert(
+        !requires { typename M::template neighbor_search<double, 2>; }, "neighbor_search: the slot is search");
     static_assert(!requires { typename M::neighbour_search; }, "neighbour_search: the slot is search");
-    static_assert(!requires { typename M::template neighbour_search<double, 2>; }, "neighbour_search: the slot is search");
+    static_assert(
+        !requires { typename M::template neighbour_search<double, 2>; }, "neighbour_search: the slot is search");
     static_assert(!requires { typename M::neighbors; }, "neighbors: the slot is search");
     static_assert(!requires { typename M::template neighbors<double, 2>; }, "neighbors: the slot is search");
     static_assert(!requires { typename M::neighbours; }, "neighbours: the slot is search");

@@ -53,15 +53,16 @@ body_extent<Real> extent_of(particle_store<Real, Dim> const& store) noexcept {
 ///         (1,024) spacings of the numbers there
 template <class Real, int Dim>
 void require_resolved(particle_store<Real, Dim> const& store, body_extent<Real> const& e) {
-    double const epsilon = double(std::numeric_limits<Real>::epsilon()), most = double(e.smallest_radius) / (1024 * epsilon);
+    double const epsilon = double(std::numeric_limits<Real>::epsilon()),
+                 most = double(e.smallest_radius) / (1024 * epsilon);
     if (e.furthest < 0 || !(double(e.reach) > most)) return;
     refuse("particle " + std::to_string(store.id(std::size_t(e.furthest))) + ".position",
            to_text(store.position(std::size_t(e.furthest))) + " m",
            "within " + to_text(most) + " m of the origin: further away numbers of " + precision_text<Real>() + " are " +
                to_text(epsilon * double(e.reach)) + " m apart, too coarse for the radius of " +
-               to_text(double(e.smallest_radius)) + " m of particle " + std::to_string(store.id(std::size_t(e.smallest))) +
-               "; shift the body to the origin" + (sizeof(Real) < 8 ? ", use double precision" : "") +
-               ", or switch guards.resolution off");
+               to_text(double(e.smallest_radius)) + " m of particle " +
+               std::to_string(store.id(std::size_t(e.smallest))) + "; shift the body to the origin" +
+               (sizeof(Real) < 8 ? ", use double precision" : "") + ", or switch guards.resolution off");
 }
 
 /// Overlaps in the initial packing.
@@ -114,10 +115,12 @@ start_pairs check_start(particle_store<Real, Dim> const& store, Interactions con
         throw std::invalid_argument(who(same) + " are at the same place " + to_text(position(same[0])) +
                                     " m, or closer than rounding: must be apart, else their contact has no direction");
     if (deep != none) {
-        double const overlap = double(overlap_of(store, store.internal(std::size_t(deep[0])), store.internal(std::size_t(deep[1]))));
+        double const overlap =
+            double(overlap_of(store, store.internal(std::size_t(deep[0])), store.internal(std::size_t(deep[1]))));
         throw std::invalid_argument("initial overlap of " + who(deep) + " at " + to_text(position(deep[0])) + " and " +
                                     to_text(position(deep[1])) + " m = " + to_text(overlap) +
-                                    " of the smaller radius: must be at most " + to_text(limit) + " (guards.overlap_limit)");
+                                    " of the smaller radius: must be at most " + to_text(limit) +
+                                    " (guards.overlap_limit)");
     }
     return found;
 }

@@ -171,11 +171,12 @@ private:
         }
         look_ahead(s, speed, assumed.overlap);
         if (!(*time_step_ <= found.rigorous) && !s.settings.allow_unstable_step)
-            throw_unstable(s.store, now(), -1,
-                           "the time step of " + to_text(*time_step_) + " s is above the stable limit, which is " +
-                               to_text(found.rigorous) + " s by now",
-                           "contacts have formed or become stiffer, bonds have failed, or supports were released; without a "
-                           "given time_step the step follows the limit; allow_unstable_step ignores the limit");
+            throw_unstable(
+                s.store, now(), -1,
+                "the time step of " + to_text(*time_step_) + " s is above the stable limit, which is " +
+                    to_text(found.rigorous) + " s by now",
+                "contacts have formed or become stiffer, bonds have failed, or supports were released; without a "
+                "given time_step the step follows the limit; allow_unstable_step ignores the limit");
         looked(s, assumed, found.rigorous);
     }
     void follow_critical_step(state_type& s, double speed) {

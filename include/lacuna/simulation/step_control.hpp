@@ -113,7 +113,8 @@ public:
         approach_ += last_approach_;
         deepest_ = std::max(deepest_, deepest);
         // One step early: the next step may already exceed the gap.
-        due_ = due_ || failed || !(approach_ + last_approach_ <= assumed_.gap) || (grows && deepest_ > assumed_.overlap);
+        due_ =
+            due_ || failed || !(approach_ + last_approach_ <= assumed_.gap) || (grows && deepest_ > assumed_.overlap);
         credit_ = std::min(credit_ + 1, 4 * price_of_wet_look);
     }
     /// Whether a look is to be made before the next step.
@@ -126,8 +127,8 @@ public:
     }
     template <class Archive>
     void serialize(Archive& ar) {
-        ar(forecast_, assumed_.gap, assumed_.overlap, approach_, last_approach_, deepest_, credit_, price_, looks_, due_,
-           can_wait_);
+        ar(forecast_, assumed_.gap, assumed_.overlap, approach_, last_approach_, deepest_, credit_, price_, looks_,
+           due_, can_wait_);
         for (double const number : {assumed_.gap, assumed_.overlap, approach_, last_approach_, deepest_})
             require_state(number >= 0 && std::isfinite(number), "what its time step assumes of contacts");
     }

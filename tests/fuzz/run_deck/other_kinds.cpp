@@ -13,14 +13,24 @@
 namespace lacuna_run {
 
 template <>
-std::unique_ptr<runner> make_particle_runner<2, double, lacuna::hertz_mindlin>(scenario const&) { throw fuzz::other_kind(); }
+std::unique_ptr<runner> make_particle_runner<2, double, lacuna::hertz_mindlin>(scenario const&) {
+    throw fuzz::other_kind();
+}
 template <>
-std::unique_ptr<runner> make_particle_runner<2, float, lacuna::hertz_mindlin>(scenario const&) { throw fuzz::other_kind(); }
+std::unique_ptr<runner> make_particle_runner<2, float, lacuna::hertz_mindlin>(scenario const&) {
+    throw fuzz::other_kind();
+}
 template <>
-std::unique_ptr<runner> make_particle_runner<3, double, lacuna::frictional_spring>(scenario const&) { throw fuzz::other_kind(); }
+std::unique_ptr<runner> make_particle_runner<3, double, lacuna::frictional_spring>(scenario const&) {
+    throw fuzz::other_kind();
+}
 template <>
-std::unique_ptr<runner> make_particle_runner<3, float, lacuna::frictional_spring>(scenario const&) { throw fuzz::other_kind(); }
+std::unique_ptr<runner> make_particle_runner<3, float, lacuna::frictional_spring>(scenario const&) {
+    throw fuzz::other_kind();
+}
 template <>
-std::unique_ptr<runner> make_particle_runner<3, float, lacuna::hertz_mindlin>(scenario const&) { throw fuzz::other_kind(); }
+std::unique_ptr<runner> make_particle_runner<3, float, lacuna::hertz_mindlin>(scenario const&) {
+    throw fuzz::other_kind();
+}
 
 } // namespace lacuna_run

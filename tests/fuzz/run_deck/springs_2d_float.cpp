@@ -7,7 +7,8 @@ namespace lacuna_run {
 template <>
 std::unique_ptr<runner> make_particle_runner<2, float, lacuna::frictional_spring>(scenario const& s) {
     if (s.simulation.bond == bond_law::parallel_bond) throw fuzz::other_kind();
-    return std::make_unique<fuzz::watched_runner<run_model<2, float, lacuna::frictional_spring, lacuna::brittle_spring_bond>>>(s);
+    return std::make_unique<
+        fuzz::watched_runner<run_model<2, float, lacuna::frictional_spring, lacuna::brittle_spring_bond>>>(s);
 }
 
 } // namespace lacuna_run

@@ -45,7 +45,8 @@ public:
         simulation copy = this->simulated();
         // More than 1000 fluid steps per particle step take too long here.
         if constexpr (lacuna::has_fluid<Model>)
-            if (scenario_.fluid && !scenario_.fluid->implicit && copy.resolve_time_step() > 1000 * copy.flow().mean_throat_limit())
+            if (scenario_.fluid && !scenario_.fluid->implicit &&
+                copy.resolve_time_step() > 1000 * copy.flow().mean_throat_limit())
                 throw other_kind();
         step_facts f;
         try {
@@ -75,7 +76,8 @@ private:
         void on_step(simulation const& sim) {
             auto const& e = sim.energy();
             vector const change = momentum_of(sim) - first;
-            for (int axis = 0; axis < dim; ++axis) f.momentum_change = std::max(f.momentum_change, std::fabs(change[axis]));
+            for (int axis = 0; axis < dim; ++axis)
+                f.momentum_change = std::max(f.momentum_change, std::fabs(change[axis]));
             f.residual = std::max(f.residual, std::fabs(e.residual()));
             f.spent = std::max({f.spent, e.friction + e.damping, -e.damping});
             f.energy = std::max({f.energy, e.largest(), sim.kinetic_energy()});
@@ -103,7 +105,8 @@ private:
             for (std::size_t k = 0; k < sim.size(); ++k) {
                 heaviest = std::max(heaviest, sim.mass(k));
                 momenta += std::sqrt(2 * sim.mass(k) * f.energy);
-                for (int axis = 0; axis < dim; ++axis) reach = std::max(reach, std::fabs(sim.position(k)[axis]) + sim.radius(k));
+                for (int axis = 0; axis < dim; ++axis)
+                    reach = std::max(reach, std::fabs(sim.position(k)[axis]) + sim.radius(k));
             }
             double const critical = sim.limits().critical(), step = sim.time_step();
             f.share = std::max(f.share, step / critical);
@@ -112,12 +115,14 @@ private:
             double momentum = momenta + step * pairs * std::sqrt(2 * stiffness * f.energy);
             // The error of a position, and of a spring's length, is epsilon times the distance from the origin.
             double const blur = epsilon * reach;
-            double energy = epsilon * f.energy + pairs * (std::sqrt(stiffness * f.energy) * blur + stiffness * blur * blur);
+            double energy =
+                epsilon * f.energy + pairs * (std::sqrt(stiffness * f.energy) * blur + stiffness * blur * blur);
             if constexpr (lacuna::has_fluid<Model>)
                 if (scenario.fluid) {
                     auto const& net = sim.flow().network();
                     double pressure = 0;
-                    for (std::size_t p = 0; p < net.pores(); ++p) pressure = std::max(pressure, std::fabs(double(net.pressure[p])));
+                    for (std::size_t p = 0; p < net.pores(); ++p)
+                        pressure = std::max(pressure, std::fabs(double(net.pressure[p])));
                     double const thrust = double(net.pores()) * pressure * scenario.simulation.thickness * reach;
                     momentum += step * thrust;
                     energy += thrust * blur;

@@ -87,7 +87,11 @@ struct my_law {
 #else
         T deepest = max(h.deepest, overlap);
 #endif
-        return {-(p.stiffness * overlap), {}, {h.touching_distance, deepest}, T(0.5) * p.stiffness * overlap * overlap, T(0)};
+        return {-(p.stiffness * overlap),
+                {},
+                {h.touching_distance, deepest},
+                T(0.5) * p.stiffness * overlap * overlap,
+                T(0)};
     }
 #endif
 #ifndef NO_STIFFNESS

@@ -18,7 +18,8 @@
 struct my_flow {
     struct parameters {
         int interval = 1;
-        double bulk_modulus = 1, minimum_pressure = -std::numeric_limits<double>::infinity(), minimum_volume_fraction = 1e-3;
+        double bulk_modulus = 1, minimum_pressure = -std::numeric_limits<double>::infinity(),
+               minimum_volume_fraction = 1e-3;
         void validate(std::string const&) const {}
     };
     template <class Real, int Dim>
@@ -44,8 +45,8 @@ struct my_flow {
         void step(lacuna::body_column<Real> const&, Real const*, Real, int, lacuna::record_column<Real>*) {}
 #endif
         Real critical_time_step() const { return std::numeric_limits<Real>::infinity(); }
-        std::array<lacuna::vec<Real, Dim>, std::size_t(Dim) + 1> pore_tractions(std::size_t, lacuna::points_view<Real, Dim>,
-                                                                                Real const*) const {
+        std::array<lacuna::vec<Real, Dim>, std::size_t(Dim) + 1>
+        pore_tractions(std::size_t, lacuna::points_view<Real, Dim>, Real const*) const {
             return {};
         }
         Real storage_energy() const { return Real(0); }

@@ -103,7 +103,8 @@ Real overlap_of(particle_store<Real, Dim> const& store, std::int32_t first, std:
 /// overlap is at most `tolerance` times the smaller radius, up to rounding.
 /// \param distance present distance of the centres, m
 template <class Real, int Dim>
-bool starts_touching(particle_store<Real, Dim> const& store, neighbor_pair const& pair, double tolerance, Real distance) {
+bool starts_touching(particle_store<Real, Dim> const& store, neighbor_pair const& pair, double tolerance,
+                     Real distance) {
     Real const ri = store.radius(std::size_t(pair.i)), rj = store.radius(std::size_t(pair.j));
     return abs(distance - (ri + rj)) <= Real(tolerance) * std::min(ri, rj) + touching_slack<Real> * (ri + rj);
 }
@@ -128,7 +129,8 @@ auto first_history(particle_store<Real, Dim> const& store, neighbor_pair const& 
 /// \param tolerance as for starts_touching()
 /// \return sorted by (i, j)
 template <class Search, class Real, int Dim>
-std::vector<neighbor_pair> pairs_touching_apart(particle_store<Real, Dim> const& store, Search& search, double tolerance) {
+std::vector<neighbor_pair> pairs_touching_apart(particle_store<Real, Dim> const& store, Search& search,
+                                                double tolerance) {
     std::vector<neighbor_pair> pairs;
     if (!(tolerance > 0)) return pairs;
     Real first = 0, second = 0;
@@ -160,7 +162,8 @@ bool acts_apart(particle_store<Real, Dim> const& store, Parameters const& parame
     } else {
         auto const arm = store.position(std::size_t(contact.j)) - store.position(std::size_t(contact.i));
         Real const distance = norm(store.nearest(arm));
-        pair_motion<Real, Dim> const closer{distance * (1 - 64 * std::numeric_limits<Real>::epsilon()), ri, rj, {}, Real(0)};
+        pair_motion<Real, Dim> const closer{
+            distance * (1 - 64 * std::numeric_limits<Real>::epsilon()), ri, rj, {}, Real(0)};
         return distance > ri + rj && Law::evaluate(parameters, closer, contact.state).normal_force != Real(0);
     }
 }
@@ -180,8 +183,8 @@ template <class Law, class Real, int Dim>
 
 /// Largest overlap in one pack of contacts as a share of the smaller radius, 1. Only for laws that stiffen.
 template <class Law, class Real, int Dim>
-[[gnu::noinline]] Real deepest_of_pack(particle_store<Real, Dim> const& store, pair_table<Law, Real, Dim> const& contacts,
-                                       std::size_t pack) {
+[[gnu::noinline]] Real deepest_of_pack(particle_store<Real, Dim> const& store,
+                                       pair_table<Law, Real, Dim> const& contacts, std::size_t pack) {
     Real deepest = 0;
     for (std::size_t s = pack * contacts.width; s < (pack + 1) * contacts.width; ++s) {
         if (contacts.is_padding(s, store.size())) continue;

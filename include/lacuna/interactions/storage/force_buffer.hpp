@@ -120,7 +120,8 @@ public:
                 if constexpr (Dim == 2) {
                     sums_.set(first + std::size_t(k), total);
                 } else {
-                    for (std::size_t r = 0; r < records; ++r) sums_.set(records * (first + std::size_t(k)) + r, total[r]);
+                    for (std::size_t r = 0; r < records; ++r)
+                        sums_.set(records * (first + std::size_t(k)) + r, total[r]);
                 }
             }
         });

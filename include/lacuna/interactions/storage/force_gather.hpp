@@ -60,7 +60,8 @@ public:
         std::fill(degree_.begin(), degree_.end(), 0);
         auto const put = [&](std::int32_t k, std::size_t half, std::int32_t offset) {
             std::size_t const c = std::size_t(k) / chunk_particles, row = 2 * (std::size_t(k) % chunk_particles) + half;
-            std::size_t const first = half_row_[c] == uneven ? std::size_t(starts(int(c))[row]) : row * std::size_t(half_row_[c]);
+            std::size_t const first =
+                half_row_[c] == uneven ? std::size_t(starts(int(c))[row]) : row * std::size_t(half_row_[c]);
             entry_[begin_[c] + first + std::size_t(degree_[2 * std::size_t(k) + half]++)] = offset;
         };
         for_each([&](std::int32_t i, std::int32_t j, std::int32_t offset) {
@@ -101,7 +102,8 @@ private:
                 length = all;
                 uneven_[c] = start_.size();
                 start_.push_back(0);
-                for (std::size_t row = 0; row < halves; ++row) start_.push_back(start_.back() + first[std::ptrdiff_t(row)]);
+                for (std::size_t row = 0; row < halves; ++row)
+                    start_.push_back(start_.back() + first[std::ptrdiff_t(row)]);
             }
             begin_[c + 1] = begin_[c] + length;
         }

@@ -67,7 +67,8 @@ class force_offsets {
 public:
     /// \param transient whether memory is reused
     template <class Law, class Real, int Dim>
-    void build(pair_table<Law, Real, Dim> const& table, std::size_t particles, chunk_spans const& spans, bool transient) {
+    void build(pair_table<Law, Real, Dim> const& table, std::size_t particles, chunk_spans const& spans,
+               bool transient) {
         at_.resize(std::size_t(table.chunks()));
         lifetimes_.assign(at_.size(), 0);
         // Packs in use are counted from chunk to chunk: the spare packs between them need no memory.
@@ -136,7 +137,8 @@ private:
     /// Finds the lifetime of each chunk's forces: the largest number of packs from a force of the chunk to the end of
     /// the last chunk that needs it.
     template <class Law, class Real, int Dim>
-    void find_lifetimes(pair_table<Law, Real, Dim> const& table, std::size_t particles, chunk_spans const& spans) noexcept {
+    void find_lifetimes(pair_table<Law, Real, Dim> const& table, std::size_t particles,
+                        chunk_spans const& spans) noexcept {
         for (int c = 0; c < table.chunks(); ++c) {
             std::size_t const first = table.first_pack(c), end = table.end_pack(c);
             std::size_t most = std::max<std::size_t>(end - first, 1);

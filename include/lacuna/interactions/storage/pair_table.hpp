@@ -129,7 +129,9 @@ public:
         resize();
     }
 
-    static int chunks_of(std::size_t particles) noexcept { return int((particles + chunk_particles - 1) / chunk_particles); }
+    static int chunks_of(std::size_t particles) noexcept {
+        return int((particles + chunk_particles - 1) / chunk_particles);
+    }
     /// Iterator to the first of the pairs, sorted by (i, j), that belongs to the chunk or to a later one.
     template <class Pairs>
     static auto first_of_chunk(Pairs const& pairs, int chunk) noexcept {
@@ -154,7 +156,9 @@ public:
     }
 
     /// First slot of a chunk; slots() for a chunk beyond the last.
-    std::size_t first_slot(int chunk) const noexcept { return chunk_begin_[std::size_t(std::min(chunk, chunks()))] * width; }
+    std::size_t first_slot(int chunk) const noexcept {
+        return chunk_begin_[std::size_t(std::min(chunk, chunks()))] * width;
+    }
     /// Whether a slot holds the given pair.
     template <class Pair>
     bool is(std::size_t slot, Pair const& pair) const noexcept {
@@ -184,7 +188,9 @@ public:
     {
         return label_[slot];
     }
-    bool is_padding(std::size_t slot, std::size_t particles) const noexcept { return std::size_t(i_[slot]) >= stride * particles; }
+    bool is_padding(std::size_t slot, std::size_t particles) const noexcept {
+        return std::size_t(i_[slot]) >= stride * particles;
+    }
     /// Parameter row that all pairs of a pack share, or -1.
     std::int32_t uniform_parameter(std::size_t p) const noexcept { return uniform_[p]; }
     field_packs<history_of, Real, width>& states() noexcept { return state_; }
@@ -261,8 +267,9 @@ private:
         std::size_t const first = first_slot(chunk);
         std::size_t slot = first + chunk_pairs_[std::size_t(chunk)];
         // Padding takes the row of the last pair, so that the pack can have a uniform row.
-        entry const padding_pair{store.padding_particle(0), store.padding_particle(1), slot > first ? parameter_[slot - 1] : 0, -1,
-                           Law::template initial<Real, Dim>(apart, apart / 2)};
+        entry const padding_pair{store.padding_particle(0), store.padding_particle(1),
+                                 slot > first ? parameter_[slot - 1] : 0, -1,
+                                 Law::template initial<Real, Dim>(apart, apart / 2)};
         for (; slot < first + packs * width; ++slot) put(slot, padding_pair);
     }
     /// Finds the parameter row that all pairs of a pack share, for each pack of a chunk.

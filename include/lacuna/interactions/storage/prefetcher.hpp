@@ -51,7 +51,8 @@ public:
         std::size_t pairs = 0, beyond = 0, usual = std::size_t(chunks);
         for (std::size_t const count : distances_) pairs += count;
         while (usual > 0 && 64 * (beyond + distances_[usual]) <= pairs) beyond += distances_[usual--];
-        if (4 * (usual + 1) < std::size_t(chunks)) find_first_uses(particles, chunks, 4 * (usual + 1), false, tables...);
+        if (4 * (usual + 1) < std::size_t(chunks))
+            find_first_uses(particles, chunks, 4 * (usual + 1), false, tables...);
     }
     /// Whether there are so many particles that prefetching pays.
     bool pays() const noexcept { return !first_use_.empty(); }

@@ -203,7 +203,9 @@ private:
         std::iota(up_.begin(), up_.end(), std::size_t(0));
         area_.assign(to_.pores(), 0);
         sum_.assign(to_.pores(), 0);
-        auto const by_low = [](auto const& p, auto const& q) { return p.low != q.low ? p.low < q.low : p.pore < q.pore; };
+        auto const by_low = [](auto const& p, auto const& q) {
+            return p.low != q.low ? p.low < q.low : p.pore < q.pore;
+        };
         std::sort(removed_.begin(), removed_.end(), by_low);
         std::sort(added_.begin(), added_.end(), by_low);
         Real widest(0);
@@ -282,7 +284,8 @@ private:
             double const wanted = double(to_.pressure[q]) + (r.content - r.guess) / r.volume;
             bool const torn = wanted < minimum_pressure_;
             to_.pressure[q] = Real(torn ? minimum_pressure_ : wanted);
-            if (!to_.vapour.empty()) to_.vapour[q] = Real(torn ? (minimum_pressure_ - wanted) * volume / bulk_modulus_ : 0);
+            if (!to_.vapour.empty())
+                to_.vapour[q] = Real(torn ? (minimum_pressure_ - wanted) * volume / bulk_modulus_ : 0);
             report_.residual += (volume * double(to_.pressure[q])) / bulk_modulus_ - double(to_.vapour_of(q));
             report_.volume += volume;
         }
