@@ -69,7 +69,7 @@ inline std::string list_of(std::vector<std::string> const& words) {
 }
 /// The index of a word among the known words.
 /// \throws std::invalid_argument "--case word: must be a, b or c (did you mean b?)"
-inline std::size_t place_of(std::string const& option, std::string const& word, std::vector<std::string> const& known) {
+inline std::size_t index_of(std::string const& option, std::string const& word, std::vector<std::string> const& known) {
     auto const at = std::find(known.begin(), known.end(), word);
     if (at != known.end()) return std::size_t(at - known.begin());
     throw std::invalid_argument(option + " " + (word.empty() ? "''" : word) + ": must be " + list_of(known) +

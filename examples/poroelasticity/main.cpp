@@ -42,7 +42,7 @@ request parse_command_line(int argc, char const* const* argv) {
     if (!programs::parse(app, argc, argv)) return r;
     constexpr decltype(r.run) runs[] = {poroelasticity::run_terzaghi, poroelasticity::run_mandel,
                                         poroelasticity::run_cryer, poroelasticity::run_darcy};
-    r.run = runs[programs::place_of("--case", r.name, {"terzaghi", "mandel", "cryer", "darcy"})];
+    r.run = runs[programs::index_of("--case", r.name, {"terzaghi", "mandel", "cryer", "darcy"})];
     return r;
 }
 

@@ -30,14 +30,14 @@ void chosen_flow::solver<Real, Dim>::map(lookup_type const& lookup) {
 }
 
 template <class Real, int Dim>
-void chosen_flow::solver<Real, Dim>::refresh_apertures(bodies const& positions, Real const* normal_forces,
+void chosen_flow::solver<Real, Dim>::refresh_apertures(particles_type const& positions, Real const* normal_forces,
                                                        int threads) {
     std::visit([&](auto& one) { one.refresh_apertures(positions, normal_forces, threads); }, chosen_);
 }
 
 template <class Real, int Dim>
-void chosen_flow::solver<Real, Dim>::take_step(bool with_ledger, bodies const& positions, Real const* normal_forces,
-                                               Real dt, int threads, records* tractions) {
+void chosen_flow::solver<Real, Dim>::take_step(bool with_ledger, particles_type const& positions,
+                                               Real const* normal_forces, Real dt, int threads, records* tractions) {
     std::visit(
         [&](auto& one) {
             if (with_ledger)

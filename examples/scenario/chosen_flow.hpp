@@ -62,7 +62,7 @@ struct chosen_flow {
         static_assert(Dim == 2);
         using points_type = lacuna::points_view<Real, 2>;
         using records = lacuna::record_column<Real>;
-        using bodies = lacuna::body_column<Real>;
+        using particles_type = lacuna::particle_column<Real>;
         using explicit_type = lacuna::explicit_flow_solver<Real, 2, chosen_aperture>;
         using implicit_type = lacuna::implicit_flow_solver<Real, 2, chosen_aperture>;
 
@@ -79,9 +79,9 @@ struct chosen_flow {
         void map_throats(Lookup const& lookup) {
             map(lookup_type(lookup));
         }
-        void refresh_apertures(bodies const& positions, Real const* normal_forces, int threads = 1);
+        void refresh_apertures(particles_type const& positions, Real const* normal_forces, int threads = 1);
         template <bool WithLedger>
-        void step(bodies const& positions, Real const* normal_forces, Real dt, int threads = 1,
+        void step(particles_type const& positions, Real const* normal_forces, Real dt, int threads = 1,
                   records* tractions = nullptr) {
             take_step(WithLedger, positions, normal_forces, dt, threads, tractions);
         }
@@ -106,8 +106,8 @@ struct chosen_flow {
 
     private:
         void map(lookup_type const& lookup);
-        void take_step(bool with_ledger, bodies const& positions, Real const* normal_forces, Real dt, int threads,
-                       records* tractions);
+        void take_step(bool with_ledger, particles_type const& positions, Real const* normal_forces, Real dt,
+                       int threads, records* tractions);
 
         parameters parameters_;
         std::variant<typename lacuna::no_flow::solver<Real, 2>, explicit_type, implicit_type> chosen_;

@@ -62,7 +62,7 @@ public:
         std::string const heading = journal_.heading;
         try {
             auto const content = lacuna::read_checkpoint(path);
-            (void)earlier_scenario(path, content.told, scenario_);
+            (void)earlier_scenario(path, content.program_input, scenario_);
             if (content.model != model_text() || content.given != shape_text())
                 throw refusal("checkpoint " + path + ": it belongs to another network");
             lacuna::state_reader state(content.state);

@@ -347,7 +347,7 @@ void particle_runner<Model>::save(results& out, bool regular) {
     out.mark(journal_);
     if (!regular) out.set_regular_checkpoint_aside();
     auto content = lacuna::checkpoint_of(*sim_, journal_);
-    content.told = statement_;
+    content.program_input = statement_;
     lacuna::write_checkpoint(out.file("checkpoint.bin"), content);
     if (regular) out.regular_checkpoint_written();
 }
@@ -359,7 +359,7 @@ void particle_runner<Model>::restore([[maybe_unused]] std::string const& path) {
     std::string const heading = journal_.heading;
     try {
         auto const content = lacuna::read_checkpoint(path);
-        scenario const before = earlier_scenario(path, content.told, scenario_);
+        scenario const before = earlier_scenario(path, content.program_input, scenario_);
         // A simulation without loads takes all loads from the checkpoint.
         auto const p = sim_->settings();
         sim_.emplace(packing_of(), p);
@@ -463,7 +463,7 @@ double particle_runner<Model>::read_of_particle(probe const& p) const {
     }
     case quantity::rotation:
         if constexpr (dim == 2) {
-            return double(store.bodies().at(k, 2)) / sim_->radius(id);
+            return double(store.particle_records().at(k, 2)) / sim_->radius(id);
         } else {
             // Convert the unit quaternion to a rotation vector.
             auto const q = sim_->orientation(id);

@@ -91,7 +91,7 @@ command parse_command_line(int argc, char const* const* argv) {
         return w;
     }
     constexpr uniaxial::specimen_kind kinds[] = {uniaxial::specimen_kind::random, uniaxial::specimen_kind::lattice};
-    q.specimen = kinds[programs::place_of("--specimen", w.specimen, {"random", "lattice"})];
+    q.specimen = kinds[programs::index_of("--specimen", w.specimen, {"random", "lattice"})];
     for (std::size_t k = 0; k < std::size(numbers); ++k)
         if (app.count(numbers[k].option) > 0) q.*numbers[k].member = read_number(numbers[k].option, words[k]);
     if (app.count("--seed") > 0)

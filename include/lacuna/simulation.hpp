@@ -240,7 +240,7 @@ public:
     /// Assumptions of limits() about contacts.
     contact_assumption assumed_contacts() const { return clock_.assumed_contacts(state_); }
     /// Number of times that the limits of the time step were computed, the first time included.
-    long long looks() const noexcept { return clock_.control().looks(); }
+    long long limit_updates() const noexcept { return clock_.control().updates(); }
 
     /// Failures of the last step.
     std::span<event_type const> events() const noexcept { return state_.events; }

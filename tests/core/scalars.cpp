@@ -92,7 +92,7 @@ void check_records() {
 /// Entries of two records: number l of entry k is 10 k + l.
 template <class T, int W>
 void check_double_records() {
-    body_column<T> column(20);
+    particle_column<T> column(20);
     for (std::size_t k = 0; k < 20; ++k)
         for (int l = 0; l < 8; ++l) column.at(k, l) = T(10 * k) + T(l);
     REQUIRE(column.size() == 20);

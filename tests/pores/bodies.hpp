@@ -51,8 +51,8 @@ struct assembly {
     }
     /// Records as in a particle store: {x, y, arc, radius}, in space {x, y, z, radius}; then two padding particles.
     template <class Real = double>
-    lacuna::body_column<Real> records() const {
-        lacuna::body_column<Real> column;
+    lacuna::particle_column<Real> records() const {
+        lacuna::particle_column<Real> column;
         column.resize(x.size() + 2);
         for (std::size_t i = 0; i < x.size() + 2; ++i) {
             bool const padding = i >= x.size();

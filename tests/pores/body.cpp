@@ -43,8 +43,8 @@ struct body {
         return {p, make_pore_network(mesh(), points(), r.data(), boundary), 1.0, points(), r.data()};
     }
     /// Records as in a particle store: {x, y, arc, radius}, and those of two padding particles.
-    body_column<double> records() const {
-        body_column<double> column;
+    particle_column<double> records() const {
+        particle_column<double> column;
         column.resize(x.size() + 2);
         for (std::size_t i = 0; i < x.size() + 2; ++i) {
             bool const padding = i >= x.size();
@@ -684,7 +684,7 @@ TEST_CASE("single precision follows double") {
     flow.set_pressure(0, 1);
     single.set_pressure(0, 1);
     double const dt = 0.5 * flow.critical_time_step();
-    body_column<float> records;
+    particle_column<float> records;
     record_column<float> extra;
     records.resize(9);
     for (std::size_t i = 0; i < 9; ++i) {

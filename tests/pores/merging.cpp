@@ -71,8 +71,8 @@ struct body {
         auto const points = view_points(x);
         return {p, make_pore_network(triangulate_body(points, r.data()), points, r.data(), top), 1.0, points, r.data()};
     }
-    body_column<double> records() const {
-        body_column<double> column;
+    particle_column<double> records() const {
+        particle_column<double> column;
         column.resize(x.size());
         for (std::size_t i = 0; i < x.size(); ++i) {
             column.at(i, 0) = x[i][0];

@@ -45,13 +45,13 @@ TEST_CASE("particles at the same position are named, dry, wet and with --check",
                 INFO(bonds << wet << options << "\n" << ran.err);
                 CHECK(ran.status == 2);
                 CHECK_THAT(ran.err,
-                           contains_text("particles 2 and 3") && contains_text("at the same place (0.5, 0.875)"));
+                           contains_text("particles 2 and 3") && contains_text("at the same position (0.5, 0.875)"));
                 CHECK(std::count(ran.err.begin(), ran.err.end(), '\n') == 1);
             }
     std::string const row = "position = [[0.0, 0.0, 0.0], [3.0, 0.0, 1.0], [3.0, 0.0, 1.0]]\n";
     auto const ran = run(deck("dimension = 3\nsteps = 10", row));
     CHECK(ran.status == 2);
-    CHECK_THAT(ran.err, contains_text("particles 1 and 2 are at the same place (3, 0, 1)"));
+    CHECK_THAT(ran.err, contains_text("particles 1 and 2 are at the same position (3, 0, 1)"));
 }
 
 TEST_CASE("an initial overlap of more than a radius is refused, unless its guard is off", "[guards][program]") {

@@ -53,7 +53,7 @@ TEST_CASE("particles without pores are named as the deck numbers them", "[fluid]
                "particle 4 at (0, 0) m"}},
           one{"[[1.0, 0.0], [0.0, 0.0]]", {"fluid: number of pores = 0", "3 particles around it, and there are 2"}},
           one{"[[9.0, 0.0], [0.5, 0.875], [1.0, 0.0], [0.0, 0.0], [1.0, 0.0]]",
-              {"particles 2 and 4 are at the same place (1, 0)"}}})
+              {"particles 2 and 4 are at the same position (1, 0)"}}})
         for (motion const how : {motion::coupled, motion::rigid})
             for (std::string const options : {"--quiet ", "--check "}) {
                 here.clear();

@@ -143,10 +143,10 @@ struct wind {
         pore_network<Real, Dim> const& network() const { return network_; }
         template <class Lookup>
         void map_throats(Lookup const&) {}
-        void refresh_apertures(body_column<Real> const&, Real const*) {}
+        void refresh_apertures(particle_column<Real> const&, Real const*) {}
         void deactivate_slow_throats() {}
         template <bool WithLedger>
-        void step(body_column<Real> const&, Real const*, Real, int, record_column<Real>* out) {
+        void step(particle_column<Real> const&, Real const*, Real, int, record_column<Real>* out) {
             constexpr std::size_t records = Dim == 2 ? 1 : 2;
             for (std::size_t k = 0; k < out->size(); ++k) {
                 record<Real> force(Real(0));

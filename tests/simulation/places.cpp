@@ -205,7 +205,7 @@ TEST_CASE("two particles at the same position are reported before any other faul
     flat.bonds.clear();
     auto const n = std::to_string(flat.size());
     flat.add(flat.position[4], 0.5);
-    std::string const named = "particles 4 and " + n + " are at the same place ";
+    std::string const named = "particles 4 and " + n + " are at the same position ";
     std::string const there = named + lacuna::to_text(flat.position[4]);
     auto p = springs<plane>(1, 1);
     auto const dry = [&] { lacuna::simulation<plane> sim(flat, p); };
@@ -225,7 +225,7 @@ TEST_CASE("two particles at the same position are reported before any other faul
     auto block = chain<3>(4, false);
     block.add(block.position[1], 0.5);
     CHECK_THAT(thrown_by([&] { lacuna::simulation<space> sim(block, springs<space>(1, 1)); }),
-               contains_text("particles 1 and 4 are at the same place (1, 0, 0)"));
+               contains_text("particles 1 and 4 are at the same position (1, 0, 0)"));
 }
 
 TEST_CASE("messages name an initial overlap as such", "[places]") {

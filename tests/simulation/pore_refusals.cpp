@@ -114,7 +114,7 @@ void check() {
     above[Dim - 1] = 0.8;
     twice.add(above);
     twice.discs.add(twice.discs.position[1], twice.discs.radius[1]);
-    CHECK_THAT(twice.refusal(), contains_text("particles 1 and 5 are at the same place"));
+    CHECK_THAT(twice.refusal(), contains_text("particles 1 and 5 are at the same position"));
 
     // A mesh that the program makes itself.
     auto const made = flat.refusal([&](points_view<Real, Dim> points, Real const* radii) {

@@ -209,7 +209,7 @@ TEST_CASE("a run that went wrong says where", "[unstable]") {
         same.add({1, 1}, 0.5);
         same.add({1, 1}, 0.5);
         CHECK_THROWS_WITH(lacuna::simulation<plane>(same, p),
-                          contains_text("particles 1 and 2 are at the same place (1, 1)"));
+                          contains_text("particles 1 and 2 are at the same position (1, 1)"));
     }
     {
         lacuna::packing<double, 2> two;

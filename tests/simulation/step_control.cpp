@@ -322,10 +322,10 @@ TEST_CASE("the step follows contacts, and limits are rarely computed in a run wi
     for (std::size_t k = 0; k < sim.size(); ++k)
         sim.set_velocity(k, {std::sin(12.9 * double(k)), std::cos(78.2 * double(k))});
     sim.run(2000);
-    auto const before = sim.looks();
+    auto const before = sim.limit_updates();
     sim.run(4000);
-    CHECK(sim.looks() - before >= 2);
-    CHECK(sim.looks() - before <= 6);
+    CHECK(sim.limit_updates() - before >= 2);
+    CHECK(sim.limit_updates() - before <= 6);
     CHECK(sim.time_step() < 0.5 * sim.limits().critical());
 }
 
@@ -400,7 +400,7 @@ TEST_CASE("a run that is resumed in mid-flight adapts its step like the uninterr
     for (int const first : {37, 150, 700}) {
         auto whole = make();
         whole.run(2000);
-        REQUIRE(whole.looks() >= 3);
+        REQUIRE(whole.limit_updates() >= 3);
         auto part = make();
         part.run(2000, stop_at{first});
         std::string const path = "step_control.bin";

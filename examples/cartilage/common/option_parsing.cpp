@@ -47,7 +47,7 @@ choices read_choices(model_arguments const& args) {
     choices c;
     std::vector<std::string> presets;
     for (auto name : preset_names()) presets.emplace_back(name);
-    c = preset_choices(presets[programs::place_of("--preset", args.preset, presets)]);
+    c = preset_choices(presets[programs::index_of("--preset", args.preset, presets)]);
     if (!args.file.empty()) set_choices(c, contents_of(args.file), args.file);
     for (std::string const& one : args.set) {
         try {
@@ -99,7 +99,7 @@ std::vector<std::string> parts_of(std::string const& list, char separator) {
 lacuna::cartilage_zone zone_of(std::string const& option, std::string const& word) {
     std::vector<std::string> names;
     for (auto const zone : all_zones) names.emplace_back(lacuna::to_string(zone));
-    return all_zones[programs::place_of(option, word, names)];
+    return all_zones[programs::index_of(option, word, names)];
 }
 
 void add_model_options(CLI::App& app, model_arguments& args) {

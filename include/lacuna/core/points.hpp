@@ -64,7 +64,7 @@ void require_apart(points_view<Real, Dim> const& points, Id const& id) {
     for (std::size_t n = 1; n < order.size(); ++n)
         if (!before(order[n - 1], order[n]))
             throw std::invalid_argument("particles " + std::to_string(id(order[n - 1])) + " and " +
-                                        std::to_string(id(order[n])) + " are at the same place " +
+                                        std::to_string(id(order[n])) + " are at the same position " +
                                         to_text(points[order[n]]) +
                                         " m: must be apart, else there are no pores between them");
 }

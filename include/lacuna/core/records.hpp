@@ -85,7 +85,7 @@ private:
 /// The array of particles: an entry has a record for the position and one for the velocity. In double precision it
 /// fills one cache line.
 template <class Real>
-using body_column = record_column<Real, 2>;
+using particle_column = record_column<Real, 2>;
 
 namespace detail {
 template <class V, class H>

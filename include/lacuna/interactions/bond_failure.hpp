@@ -34,8 +34,8 @@ template <class BondLaw, class ContactLaw, class Real, int Dim, class BondEntry,
 auto fail_bond(particle_store<Real, Dim> const& store, BondEntry const& bond, BondParameters const& bond_parameters,
                ContactParameters const& contact_parameters, std::int32_t row, Real time_step, Real* force)
     -> std::optional<bond_failure<typename pair_table<ContactLaw, Real, Dim>::entry, Dim>> {
-    auto const i = load_body(store, std::size_t(bond.i));
-    auto j = load_body(store, std::size_t(bond.j));
+    auto const i = load_particle(store, std::size_t(bond.i));
+    auto j = load_particle(store, std::size_t(bond.j));
     if (store.period().any()) j.position = i.position + store.nearest(j.position - i.position);
     auto frame = relative_motion(i, j, time_step);
     // The loop has already added the slip of this step to the history.

@@ -61,7 +61,7 @@ std::vector<Entry> make_bonds(particle_store<Real, Dim> const& store,
         if (!(distance > 0))
             refuse(name + ".distance", double(distance),
                    "> 0: particles " + std::to_string(pairs[b][0]) + " and " + std::to_string(pairs[b][1]) +
-                       " are at the same place " + to_text(store.position(std::size_t(i))) + " m");
+                       " are at the same position " + to_text(store.position(std::size_t(i))) + " m");
         longest = std::max(longest, distance);
         bonds.push_back({i, j, row(i, j), std::int32_t(b), Law::template initial<Real, Dim>(distance, touching)});
     }

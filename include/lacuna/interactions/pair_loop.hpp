@@ -73,11 +73,11 @@ relative_state<Lanes, Dim> load_relative(particle_store<Real, Dim> const& store,
                                          std::uint32_t const* j) noexcept {
     constexpr int W = Lanes::width;
     constexpr Real rolls = Dim == 2 ? 1 : -1;
-    Real const* bodies = store.bodies().data();
+    Real const* particles = store.particle_records().data();
     Real const signs[8] = {-1, -1, -1, 1, -1, -1, rolls, -1};
     auto joined = transpose_load2<Real, W>([&]<int N>(int k, int first) {
         using part = pack<Real, N>;
-        return part::load(bodies + j[k] + first) + part::load(bodies + i[k] + first) * part::load(signs + first);
+        return part::load(particles + j[k] + first) + part::load(particles + i[k] + first) * part::load(signs + first);
     });
     relative_state<Lanes, Dim> s;
     s.radii = joined[3];
@@ -102,7 +102,7 @@ relative_state<Lanes, Dim> load_relative(particle_store<Real, Dim> const& store,
 template <class Lanes, class Real, int Dim>
 vec<Lanes, rotation_dim<Dim>> load_spin(particle_store<Real, Dim> const& store, std::uint32_t const* who,
                                         Lanes const& radius) noexcept {
-    Real const* speeds = Dim == 2 ? store.bodies().data() + 4 : store.surface_speeds().data();
+    Real const* speeds = Dim == 2 ? store.particle_records().data() + 4 : store.surface_speeds().data();
     constexpr std::uint32_t share = Dim == 2 ? 1 : 2;
     auto speed = transpose_load<Real, Lanes::width>([&](int k) { return record<Real>::load(speeds + who[k] / share); });
     if constexpr (Dim == 2)
@@ -112,8 +112,9 @@ vec<Lanes, rotation_dim<Dim>> load_spin(particle_store<Real, Dim> const& store, 
 }
 /// One particle of a store as a body of the kinematics.
 template <class Real, int Dim>
-body<Real, Dim> load_body(particle_store<Real, Dim> const& store, std::size_t k) noexcept {
-    return {store.position(k), store.velocity(k), store.spin(k), Real(store.bodies().at(k, 3)), store.mass(k)};
+body<Real, Dim> load_particle(particle_store<Real, Dim> const& store, std::size_t k) noexcept {
+    return {store.position(k), store.velocity(k), store.spin(k), Real(store.particle_records().at(k, 3)),
+            store.mass(k)};
 }
 
 /// Writes the force record of one pair. Its fourth number is the normal force, on which the apertures of throats
@@ -201,7 +202,7 @@ void prefetch_pairs(pair_table<Law, Real, Dim> const& table, particle_store<Real
     if constexpr (Dim == 3)
         if (std::size_t const q = pack_after(p + ahead / 2); q < table.packs()) {
             std::uint32_t const* seconds = table.j_records() + q * W;
-            prefetch_records<W>(store.bodies().data(), seconds);
+            prefetch_records<W>(store.particle_records().data(), seconds);
             for (int k = 0; k < W; ++k) __builtin_prefetch(store.surface_speeds().data() + seconds[k] / 2);
         }
 }

@@ -108,7 +108,7 @@ public:
         std::fill(stiffness_.begin(), stiffness_.end(), 0.0);
         energy = {};
         for (auto& n : near_) {
-            auto const i = load_body(store, n.particle);
+            auto const i = load_particle(store, n.particle);
             vec<Real, Dim> normal{};
             for (int axis = 0; axis < Dim; ++axis) normal[axis] = Real(walls_[n.plane].normal[axis]);
             Real const distance = height(i.position, n.plane);

@@ -49,7 +49,7 @@ struct symplectic_euler {
         [[maybe_unused]] bool const torqued = store.torques().size() > 0;
         for (int k = 0; k < count; ++k) {
             std::size_t const p = first + std::size_t(k);
-            rec position = store.bodies().of(p, 0), velocity = store.bodies().of(p, 1);
+            rec position = store.particle_records().of(p, 0), velocity = store.particle_records().of(p, 1);
             rec load(Real(0));
             if (loads) load = rec::load(loads + 4 * k);
             if constexpr (Dim == 2) {
@@ -58,8 +58,8 @@ struct symplectic_euler {
                 rec drag = damping_force<Damping>(damping, force, velocity, [&] { return store.inverse_mass(p); });
                 if constexpr (Damping::acts_on_particles) force += drag;
                 rec next = velocity + force * store.inverse_mass(p) * dt;
-                store.bodies().set(p, next, 1);
-                store.bodies().set(p, position + next * path, 0);
+                store.particle_records().set(p, next, 1);
+                store.particle_records().set(p, position + next * path, 0);
                 fastest = max(abs(next), fastest);
                 poison += next * rec(Real(0));
                 if constexpr (WithEnergy) add_energy(store, p, velocity, next, load, force, drag, report);
@@ -75,8 +75,8 @@ struct symplectic_euler {
                 rec drag = damping_force<Damping>(damping, force, velocity, [&] { return store.inverse_mass(p); });
                 if constexpr (Damping::acts_on_particles) force += drag;
                 rec next = velocity + force * store.inverse_mass(p) * dt;
-                store.bodies().set(p, next, 1);
-                store.bodies().set(p, position + next * path, 0);
+                store.particle_records().set(p, next, 1);
+                store.particle_records().set(p, position + next * path, 0);
                 rec spin = store.surface_speeds()[p];
                 rec brake = damping_force<Damping>(damping, torque, spin, [&] { return store.inverse_rotary(p); });
                 if constexpr (Damping::acts_on_particles) torque += brake;

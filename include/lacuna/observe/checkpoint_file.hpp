@@ -52,7 +52,7 @@ struct checkpoint_content {
     std::string model; ///< dimension, precision and the names of the parts
     std::string given; ///< bytes: constant input of the simulation, which a resumed simulation compares
     std::string state; ///< bytes
-    std::string told{}; ///< bytes: input of the program, if it stores it; the program itself compares it
+    std::string program_input{}; ///< bytes: input of the program, if it stores it; the program itself compares it
 };
 
 namespace detail {
@@ -88,7 +88,7 @@ inline std::string pack_checkpoint(checkpoint_content const& content) {
     for (auto const number : detail::checkpoint_version) detail::put(bytes, number);
     detail::put(bytes, std::uint32_t(content.model.size()));
     bytes += content.model;
-    for (std::string const* part : {&content.told, &content.given, &content.state}) {
+    for (std::string const* part : {&content.program_input, &content.given, &content.state}) {
         detail::put(bytes, std::uint64_t(part->size()));
         bytes += *part;
     }
@@ -130,7 +130,7 @@ inline checkpoint_content unpack_checkpoint(std::string_view bytes, std::string 
     need(name_length <= rest.size());
     content.model = rest.substr(0, name_length);
     rest.remove_prefix(name_length);
-    for (std::string* part : {&content.told, &content.given, &content.state}) {
+    for (std::string* part : {&content.program_input, &content.given, &content.state}) {
         need(detail::take(rest, length) && length <= rest.size());
         *part = rest.substr(0, std::size_t(length));
         rest.remove_prefix(std::size_t(length));

@@ -59,7 +59,7 @@ public:
         : id_(order.begin(), order.end()), internal_(order.size()) {
         std::size_t const n = packing.position.size();
         packing.require_one_each();
-        body_.resize(n + padding_particles);
+        record_.resize(n + padding_particles);
         if constexpr (Dim == 3) {
             surface_speed_.resize(n + padding_particles);
             quaternion_.assign(n, unit_quaternion());
@@ -98,16 +98,16 @@ public:
                 refuse(name + ".mass", mass, "representable in the model's precision with its moment of inertia");
             radius_[k] = Real(r);
             material_[k] = material;
-            for (int axis = 0; axis < Dim; ++axis) body_.at(k, axis) = packing.position[id][axis];
-            body_.at(k, 3) = body_.at(k, motion + 3) = Real(r);
+            for (int axis = 0; axis < Dim; ++axis) record_.at(k, axis) = packing.position[id][axis];
+            record_.at(k, 3) = record_.at(k, motion + 3) = Real(r);
             mass_[k] = Real(mass);
             inverse_mass_[k] = Real(1) / mass_[k];
             fix(k, {});
         }
         // The padding particles: pairs of them fill the last pack of a row of pairs.
         for (std::size_t g = 0; g < padding_particles; ++g) {
-            body_.at(n + g, 0) = Real(g);
-            body_.at(n + g, 3) = body_.at(n + g, motion + 3) = Real(0.25);
+            record_.at(n + g, 0) = Real(g);
+            record_.at(n + g, 3) = record_.at(n + g, motion + 3) = Real(0.25);
         }
     }
 
@@ -117,8 +117,8 @@ public:
         for (int axis = 0; axis < Dim; ++axis)
             if (period[axis] > 0) padding_distance_ = std::min(padding_distance_, Real(period[axis] / 4));
         for (std::size_t g = 0; g < padding_particles; ++g) {
-            body_.at(size() + g, 0) = Real(g) * padding_distance_;
-            body_.at(size() + g, 3) = body_.at(size() + g, motion + 3) = padding_distance_ / 4;
+            record_.at(size() + g, 0) = Real(g) * padding_distance_;
+            record_.at(size() + g, 3) = record_.at(size() + g, motion + 3) = padding_distance_ / 4;
         }
     }
     /// The periods of the space; 0 along open axes.
@@ -136,11 +136,11 @@ public:
 
     /// \name One particle, by internal index
     /// \{
-    point position(std::size_t k) const noexcept { return head(body_, k); }
-    point velocity(std::size_t k) const noexcept { return head(body_, k, motion); }
+    point position(std::size_t k) const noexcept { return head(record_, k); }
+    point velocity(std::size_t k) const noexcept { return head(record_, k, motion); }
     rotation spin(std::size_t k) const noexcept {
         if constexpr (Dim == 2)
-            return {body_.at(k, motion + 2) / radius_[k]};
+            return {record_.at(k, motion + 2) / radius_[k]};
         else
             return head(surface_speed_, k) / radius_[k];
     }
@@ -154,7 +154,7 @@ public:
     vec<Real, 2> orientation(std::size_t k) const noexcept
         requires(Dim == 2)
     {
-        Real const angle = body_.at(k, 2) / radius_[k];
+        Real const angle = record_.at(k, 2) / radius_[k];
         return {std::cos(angle), std::sin(angle)};
     }
     /// Unit quaternion {w, x, y, z} (3D).
@@ -170,11 +170,11 @@ public:
         return r;
     }
 
-    void set_position(std::size_t k, point const& x) noexcept { set_head(body_, k, x); }
-    void set_velocity(std::size_t k, point const& v) noexcept { set_head(body_, k, v, motion); }
+    void set_position(std::size_t k, point const& x) noexcept { set_head(record_, k, x); }
+    void set_velocity(std::size_t k, point const& v) noexcept { set_head(record_, k, v, motion); }
     void set_spin(std::size_t k, rotation const& w) noexcept {
         if constexpr (Dim == 2)
-            body_.at(k, motion + 2) = w[0] * radius_[k];
+            record_.at(k, motion + 2) = w[0] * radius_[k];
         else
             set_head(surface_speed_, k, w * radius_[k]);
     }
@@ -207,10 +207,10 @@ public:
 
     /// \name All particles
     /// \{
-    points_view<Real, Dim> positions() const noexcept { return {body_.data(), size(), body_.stride}; }
+    points_view<Real, Dim> positions() const noexcept { return {record_.data(), size(), record_.stride}; }
     std::span<Real const> radii() const noexcept { return radius_; }
-    body_column<Real>& bodies() noexcept { return body_; }
-    body_column<Real> const& bodies() const noexcept { return body_; }
+    particle_column<Real>& particle_records() noexcept { return record_; }
+    particle_column<Real> const& particle_records() const noexcept { return record_; }
     record_column<Real>& surface_speeds() noexcept { return surface_speed_; }
     record_column<Real> const& surface_speeds() const noexcept { return surface_speed_; }
     record_column<Real>& quaternions() noexcept { return quaternion_; }
@@ -241,7 +241,7 @@ public:
     Real padding_distance() const noexcept { return padding_distance_; }
     template <class Archive>
     void serialize(Archive& ar) {
-        ar(body_, surface_speed_, quaternion_, fixed_length{free_}, fixed_length{loads_at_});
+        ar(record_, surface_speed_, quaternion_, fixed_length{free_}, fixed_length{loads_at_});
         auto const blocks =
             std::int32_t(std::count_if(loads_at_.begin(), loads_at_.end(), [](auto at) { return at >= 0; }));
         for (auto const at : loads_at_) require_state(at >= -1 && at < blocks, "the index of a block of loads");
@@ -274,7 +274,7 @@ private:
         }
         return load_block * std::size_t(at) + k % load_block;
     }
-    /// Index of the first velocity component in an entry of body_.
+    /// Index of the first velocity component in an entry of record_.
     static constexpr int motion = 4;
     template <class Column>
     static point head(Column const& column, std::size_t k, int first = 0) noexcept {
@@ -297,7 +297,7 @@ private:
     std::vector<std::int32_t> loads_at_; // for each block of load_block particles its block of load_; -1: none
     /// For each pattern of free_ the components of a force, and of a torque over radius, that move a particle.
     record_column<Real> moving_ = record_column<Real>(free_patterns), rotating_ = record_column<Real>(free_patterns);
-    body_column<Real> body_; // positions and velocities
+    particle_column<Real> record_; // positions and velocities
     record_column<Real> surface_speed_, quaternion_, load_, torque_;
 };
 

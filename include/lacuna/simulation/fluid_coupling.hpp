@@ -77,7 +77,8 @@ public:
                 int const interval = flow_->settings().interval;
                 real const flow_time = (number + 1) % interval == 0 ? dt * real(interval) : real(0);
                 try {
-                    flow_->template step<WithLedger>(store.bodies(), pairs.normal_forces(), flow_time, threads, &out);
+                    flow_->template step<WithLedger>(store.particle_records(), pairs.normal_forces(), flow_time,
+                                                     threads, &out);
                 } catch (std::invalid_argument const& why) {
                     if (number == 0) throw;
                     // After step 0 the cause is the run, not the input.
@@ -108,7 +109,7 @@ public:
     void deactivate_slow_throats(store_type const& store, Pairs const& pairs) {
         if constexpr (has_fluid<Model>)
             if (flow_) {
-                flow_->refresh_apertures(store.bodies(), pairs.normal_forces());
+                flow_->refresh_apertures(store.particle_records(), pairs.normal_forces());
                 flow_->deactivate_slow_throats();
             }
     }

@@ -160,13 +160,13 @@ constexpr bool explain_flow() {
         else if constexpr (!flow_map_throats<solver>)
             static_assert(never, "the flow's solver needs: template <class Lookup> void map_throats(Lookup const&)");
         else if constexpr (!flow_refresh_apertures<solver, Real>)
-            static_assert(never, "the flow's solver needs: void refresh_apertures(body_column<Real> const&, Real "
+            static_assert(never, "the flow's solver needs: void refresh_apertures(particle_column<Real> const&, Real "
                                  "const* normal_forces)");
         else if constexpr (!flow_deactivate_slow_throats<solver>)
             static_assert(never, "the flow's solver needs: deactivate_slow_throats()");
         else if constexpr (!(flow_step<solver, Real, true> && flow_step<solver, Real, false>))
             static_assert(never,
-                          "the flow's solver needs: template <bool WithLedger> void step(body_column<Real> "
+                          "the flow's solver needs: template <bool WithLedger> void step(particle_column<Real> "
                           "const&, Real const* normal_forces, Real dt, int threads, record_column<Real>* tractions)");
         else if constexpr (!flow_time_step<solver>)
             static_assert(never, "the flow's solver needs: Real critical_time_step() const");

@@ -112,7 +112,7 @@ start_pairs check_start(particle_store<Real, Dim> const& store, Interactions con
     };
     auto const position = [&](std::int32_t id) { return store.position(std::size_t(store.internal(std::size_t(id)))); };
     if (same != none)
-        throw std::invalid_argument(who(same) + " are at the same place " + to_text(position(same[0])) +
+        throw std::invalid_argument(who(same) + " are at the same position " + to_text(position(same[0])) +
                                     " m, or closer than rounding: must be apart, else their contact has no direction");
     if (deep != none) {
         double const overlap =

@@ -60,7 +60,7 @@ public:
     /// \return the length of the step, s
     /// \throws unstable_run for a given step that is no longer safe
     double begin_step(state_type& s) {
-        if (control_.looks_now()) update_critical_step(s);
+        if (control_.needs_update()) update_critical_step(s);
         return previous_ = *time_step_;
     }
     /// Call it after a step.
@@ -105,13 +105,13 @@ private:
                                         double(s.guards.smallest_radius()), s.filled());
     }
     /// Updates the forecast of contacts in control_.
-    void look_ahead(state_type const& s, double speed, double overlap) {
-        control_.look_ahead(s.store, s.pairs, s.walls, s.settings.damping, speed, overlap, !is_given(s));
+    void update_forecast(state_type const& s, double speed, double overlap) {
+        control_.update_forecast(s.store, s.pairs, s.walls, s.settings.damping, speed, overlap, !is_given(s));
     }
-    void looked(state_type& s, contact_assumption const& assumed, double rigorous) {
+    void record_update(state_type& s, contact_assumption const& assumed, double rigorous) {
         double const accurate = is_given(s) ? std::numeric_limits<double>::infinity()
                                             : 1.3 * s.settings.safety * control_.forecast().first_contact();
-        control_.looked(assumed, *time_step_, rigorous, accurate, !is_given(s), s.filled());
+        control_.record_update(assumed, *time_step_, rigorous, accurate, !is_given(s), s.filled());
         s.pairs.watch_overlaps(control_.assumed().overlap);
     }
 
@@ -169,7 +169,7 @@ private:
             assumed = next_assumption(s);
             found = find(s, assumed);
         }
-        look_ahead(s, speed, assumed.overlap);
+        update_forecast(s, speed, assumed.overlap);
         if (!(*time_step_ <= found.rigorous) && !s.settings.allow_unstable_step)
             throw_unstable(
                 s.store, now(), -1,
@@ -177,12 +177,12 @@ private:
                     to_text(found.rigorous) + " s by now",
                 "contacts have formed or become stiffer, bonds have failed, or supports were released; without a "
                 "given time_step the step follows the limit; allow_unstable_step ignores the limit");
-        looked(s, assumed, found.rigorous);
+        record_update(s, assumed, found.rigorous);
     }
     void follow_critical_step(state_type& s, double speed) {
         auto assumed = next_assumption(s, control_.cannot_wait(), 2 * speed * *time_step_);
         auto found = find(s, assumed);
-        look_ahead(s, speed, assumed.overlap);
+        update_forecast(s, speed, assumed.overlap);
         if (double const longer = chosen_step(s, found.rigorous);
             longer > 1.05 * *time_step_ && 2 * speed * longer > assumed.gap) {
             // In a longer step particles can meet from further away.
@@ -198,7 +198,7 @@ private:
         bool const shrinks = follows ? wanted < 0.99 * now || now > critical : now > critical;
         bool const grows = follows && std::min(wanted, most) > 1.05 * now;
         if ((shrinks || grows) && std::isfinite(wanted)) change_step(s, std::min(wanted, most));
-        looked(s, assumed, found.rigorous);
+        record_update(s, assumed, found.rigorous);
     }
 
     /// Checks the limit of an explicit flow, which may have fallen below the step because throats have opened or the
@@ -241,14 +241,14 @@ void step_clock<Model>::resolve(state_type& s) {
     time_step_limits found = find(s, assumed);
     double speed = s.walls.fastest_next();
     for (std::size_t k = 0; k < s.store.size(); ++k) speed = std::max(speed, double(norm(s.store.velocity(k))));
-    look_ahead(s, speed, assumed.overlap);
+    update_forecast(s, speed, assumed.overlap);
     if (double const reach = is_given(s) ? 0 : 2 * speed * chosen_step(s, found.critical());
         reach > assumed.gap && std::isfinite(reach)) {
         assumed = next_assumption(s, false, reach); // counts contacts that may form within the first step
         found = find(s, assumed);
     }
     time_step_ = first_step(s, found);
-    looked(s, assumed, found.rigorous);
+    record_update(s, assumed, found.rigorous);
 }
 
 template <class Model>

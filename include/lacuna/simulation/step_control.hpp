@@ -11,12 +11,12 @@
 
 namespace lacuna {
 
-/// Decides when the bound of the time step has to be computed again. Such a computation is called a look.
+/// Decides when the bound of the time step has to be computed again, which is called an update.
 ///
-/// A look counts the contacts that touch or have at most a certain gap. For laws that stiffen it counts them with at
+/// An update counts the contacts that touch or have at most a certain gap. For laws that stiffen it counts them with at
 /// least a certain overlap. Its bound holds until two particles may have approached by more than the gap, a contact is
-/// deeper than the overlap, or a bond has failed. Then the next look is due. If no contact that may form can make the
-/// step unsafe (see contact_forecast), the look waits for so many steps that its cost stays small.
+/// deeper than the overlap, or a bond has failed. Then the next update is due. If no contact that may form can make the
+/// step unsafe (see contact_forecast), the update waits for so many steps that its cost stays small.
 template <class Model>
 class step_control {
 public:
@@ -31,22 +31,22 @@ public:
 
     contact_assumption const& assumed() const noexcept { return assumed_; }
     contact_forecast<Model> const& forecast() const noexcept { return forecast_; }
-    /// Discards the forecast and makes a look due, because supports have changed.
+    /// Discards the forecast and makes an update due, because supports have changed.
     void forget_forecast() noexcept {
         forecast_.forget();
         due_ = true;
     }
     /// Whether a contact that forms may make the step unsafe.
     bool cannot_wait() const noexcept { return !can_wait_; }
-    /// Number of looks so far.
-    long long looks() const noexcept { return looks_; }
+    /// Number of updates so far.
+    long long updates() const noexcept { return updates_; }
 
-    /// Assumptions about contacts for the next look.
+    /// Assumptions about contacts for the next update.
     /// \param chosen whether the library chooses the step; false: the step is given and only checked
-    /// \param wide whether the gap should be large enough for the usual time between two looks
+    /// \param wide whether the gap should be large enough for the usual time between two updates
     /// \param reach distance by which two particles may approach in the next step, m
     /// \param smallest_radius m
-    /// \param wet whether there is fluid, which makes a look expensive
+    /// \param wet whether there is fluid, which makes an update expensive
     contact_assumption next_assumption(store_type const& store, interactions_type const& pairs, walls_type const& walls,
                                        bool chosen, bool wide, double reach, double smallest_radius, bool wet) const {
         contact_assumption next{std::clamp(reach, least_gap * smallest_radius, most_gap * smallest_radius), 0};
@@ -58,7 +58,7 @@ public:
         if constexpr (grows) {
             if constexpr (requires { Model::contact_law::expected_overlap; })
                 if (chosen) next.overlap = Model::contact_law::expected_overlap;
-            // Decreases slowly: particles that were fast, or deep in contact, at the last look may just be reversing.
+            // Decreases slowly: particles that were fast, or deep in contact, at the last update may just be reversing.
             if (chosen) next.overlap = std::max(next.overlap, assumed_.overlap / 2);
             next.overlap = std::max(next.overlap, deeper * deepest_);
             double const margin = chosen ? chosen_margin : 1;
@@ -79,21 +79,22 @@ public:
     /// \param speed speed of the fastest particle or wall, m/s
     /// \param overlap least overlap of contacts, as a share of the smaller radius, 1
     /// \param chosen whether the library chooses the step
-    void look_ahead(store_type const& store, interactions_type const& pairs, walls_type const& walls,
-                    typename Model::damping::parameters const& damping, double speed, double overlap, bool chosen) {
+    void update_forecast(store_type const& store, interactions_type const& pairs, walls_type const& walls,
+                         typename Model::damping::parameters const& damping, double speed, double overlap,
+                         bool chosen) {
         forecast_.update(store, pairs, walls, damping, speed, overlap, chosen ? chosen_margin : 1);
     }
 
-    /// Records a look.
-    /// \param assumed assumptions of the look
+    /// Records an update.
+    /// \param assumed assumptions of the update
     /// \param time_step present length of the step, s
-    /// \param rigorous bound for the particles from the look, s
+    /// \param rigorous bound for the particles from the update, s
     /// \param accurate longest step that resolves a single contact well enough, s
     /// \param chosen whether the library chooses the step
     /// \param wet whether there is fluid
-    void looked(contact_assumption const& assumed, double time_step, double rigorous, double accurate, bool chosen,
-                bool wet) noexcept {
-        ++looks_;
+    void record_update(contact_assumption const& assumed, double time_step, double rigorous, double accurate,
+                       bool chosen, bool wet) noexcept {
+        ++updates_;
         assumed_ = assumed;
         // If nothing was counted, the step is that of contacts that may form.
         if (grows && chosen && !std::isfinite(rigorous))
@@ -107,7 +108,7 @@ public:
     /// Records the motion of a step.
     /// \param path upper bound of the path of every particle and wall in the step, m
     /// \param deepest largest overlap above the assumed one, as a share of the smaller radius, 1; 0: none
-    /// \param failed whether bonds have failed, or another reason makes a look due
+    /// \param failed whether bonds have failed, or another reason makes an update due
     void moved(double path, double deepest, bool failed) noexcept {
         last_approach_ = 2 * path;
         approach_ += last_approach_;
@@ -115,10 +116,12 @@ public:
         // One step early: the next step may already exceed the gap.
         due_ =
             due_ || failed || !(approach_ + last_approach_ <= assumed_.gap) || (grows && deepest_ > assumed_.overlap);
-        credit_ = std::min(credit_ + 1, 4 * price_of_wet_look);
+        credit_ = std::min(credit_ + 1, 4 * price_of_wet_update);
     }
-    /// Whether a look is to be made before the next step.
-    bool looks_now() const noexcept { return due_ && (credit_ >= price_ || (grows && deepest_ > forecast_.overlap())); }
+    /// Whether the next step must begin with an update.
+    bool needs_update() const noexcept {
+        return due_ && (credit_ >= price_ || (grows && deepest_ > forecast_.overlap()));
+    }
 
     /// Resets everything, before the first step.
     void reset(bool wet) noexcept {
@@ -127,7 +130,7 @@ public:
     }
     template <class Archive>
     void serialize(Archive& ar) {
-        ar(forecast_, assumed_.gap, assumed_.overlap, approach_, last_approach_, deepest_, credit_, price_, looks_,
+        ar(forecast_, assumed_.gap, assumed_.overlap, approach_, last_approach_, deepest_, credit_, price_, updates_,
            due_, can_wait_);
         for (double const number : {assumed_.gap, assumed_.overlap, approach_, last_approach_, deepest_})
             require_state(number >= 0 && std::isfinite(number), "what its time step assumes of contacts");
@@ -136,19 +139,19 @@ public:
 private:
     static constexpr double least_gap = 0.01, most_gap = 0.1; ///< over the smallest radius
     static constexpr double deeper = 1.25;
-    /// Number of steps between two looks that can wait if the step is chosen; four times that if it is given. A look at
-    /// a bonded sheet takes as long as 22 steps.
-    static constexpr long long price_of_dry_look = 1000, price_of_wet_look = 1600;
-    static constexpr long long price(bool wet) noexcept { return wet ? price_of_wet_look : price_of_dry_look; }
+    /// Number of steps between two updates that can wait if the step is chosen; four times that if it is given. An
+    /// update of a bonded sheet takes as long as 22 steps.
+    static constexpr long long price_of_dry_update = 1000, price_of_wet_update = 1600;
+    static constexpr long long price(bool wet) noexcept { return wet ? price_of_wet_update : price_of_dry_update; }
     /// Number of steps for which a wide gap should suffice.
     static constexpr long long lasting(bool wet) noexcept { return wet ? 1600 : 400; }
 
     contact_forecast<Model> forecast_;
     contact_assumption assumed_{};
-    double approach_ = 0, last_approach_ = 0; // of two particles, since the last look and in the last step, m
-    double deepest_ = 0;                      // largest overlap since the last look, as a share of the smaller radius
+    double approach_ = 0, last_approach_ = 0; // of two particles, since the last update and in the last step, m
+    double deepest_ = 0;                      // largest overlap since the last update, as a share of the smaller radius
     mutable double found_overlap_ = 0;
-    long long credit_ = 0, price_ = 0, looks_ = 0;
+    long long credit_ = 0, price_ = 0, updates_ = 0;
     bool due_ = false, can_wait_ = true;
 };
 

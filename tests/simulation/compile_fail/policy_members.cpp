@@ -38,11 +38,11 @@ struct my_flow {
 #endif
         template <class Lookup>
         void map_throats(Lookup const&) {}
-        void refresh_apertures(lacuna::body_column<Real> const&, Real const*) {}
+        void refresh_apertures(lacuna::particle_column<Real> const&, Real const*) {}
         void deactivate_slow_throats() {}
 #ifndef NO_STEP
         template <bool WithLedger>
-        void step(lacuna::body_column<Real> const&, Real const*, Real, int, lacuna::record_column<Real>*) {}
+        void step(lacuna::particle_column<Real> const&, Real const*, Real, int, lacuna::record_column<Real>*) {}
 #endif
         Real critical_time_step() const { return std::numeric_limits<Real>::infinity(); }
         std::array<lacuna::vec<Real, Dim>, std::size_t(Dim) + 1>

@@ -176,10 +176,11 @@ public:
         auto const own = std::size_t(chunk) * chunk_particles;
         plan.any = true;
         // In 3D the particles that a chunk reads first lie scattered: the pair loop prefetches those of each pack.
-        plan.streams = {prefetcher::stream(store.bodies().data() + store.bodies().stride * first,
-                                           Dim == 2 ? store.bodies().stride * (end - first) * sizeof(Real) : 0, packs),
-                        prefetcher::stream(rows_.rows(chunk), rows_.bytes(chunk), packs),
-                        prefetcher::stream(store.inverse_masses() + own, chunk_particles * sizeof(Real), packs)};
+        plan.streams = {
+            prefetcher::stream(store.particle_records().data() + store.particle_records().stride * first,
+                               Dim == 2 ? store.particle_records().stride * (end - first) * sizeof(Real) : 0, packs),
+            prefetcher::stream(rows_.rows(chunk), rows_.bytes(chunk), packs),
+            prefetcher::stream(store.inverse_masses() + own, chunk_particles * sizeof(Real), packs)};
         return plan;
     }
 

@@ -179,7 +179,7 @@ public:
 
     std::int32_t i(std::size_t slot) const noexcept { return std::int32_t(i_[slot] / stride); }
     std::int32_t j(std::size_t slot) const noexcept { return std::int32_t(j_[slot] / stride); }
-    /// Offsets of the pairs' particles in a body_column, in reals.
+    /// Offsets of the pairs' particles in a particle_column, in reals.
     std::uint32_t const* i_records() const noexcept { return i_.data(); }
     std::uint32_t const* j_records() const noexcept { return j_.data(); }
     std::int32_t const* parameter() const noexcept { return parameter_.data(); }
@@ -280,7 +280,7 @@ private:
         }
     }
 
-    static constexpr std::uint32_t stride = body_column<Real>::stride;
+    static constexpr std::uint32_t stride = particle_column<Real>::stride;
     std::vector<std::uint32_t> i_, j_;
     std::vector<std::int32_t> parameter_, label_, uniform_;
     std::vector<std::size_t> chunk_begin_{0}, chunk_pairs_; // by chunk: first pack (and the end), number of pairs

@@ -64,7 +64,7 @@ public:
     ///        {F_x, F_y, F_z, 0} and a record of zeros. May be nullptr.
     /// \throws std::invalid_argument if `substeps` = 0 and the step needs more than most_substeps
     template <bool WithLedger>
-    void step(body_column<Real> const& particles, Real const* normal_forces, Real dt, int threads = 1,
+    void step(particle_column<Real> const& particles, Real const* normal_forces, Real dt, int threads = 1,
               record_column<Real>* tractions = nullptr) {
         if (this->network_.bare()) {
             if (tractions) tractions->assign(tractions->size(), record<Real>(Real(0)));

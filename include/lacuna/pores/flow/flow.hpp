@@ -50,14 +50,14 @@ concept flow_network = requires(Solver const& view) {
 template <class Solver>
 concept flow_map_throats = requires(Solver& solver) { solver.map_throats(any_pair_lookup{}); };
 template <class Solver, class Real>
-concept flow_refresh_apertures = requires(Solver& solver, body_column<Real> const& particles,
+concept flow_refresh_apertures = requires(Solver& solver, particle_column<Real> const& particles,
                                           Real const* normal_forces) {
     solver.refresh_apertures(particles, normal_forces);
 };
 template <class Solver>
 concept flow_deactivate_slow_throats = requires(Solver& solver) { solver.deactivate_slow_throats(); };
 template <class Solver, class Real, bool WithLedger>
-concept flow_step = requires(Solver& solver, body_column<Real> const& particles, Real const* normal_forces, Real dt,
+concept flow_step = requires(Solver& solver, particle_column<Real> const& particles, Real const* normal_forces, Real dt,
                              record_column<Real>* out) {
     solver.template step<WithLedger>(particles, normal_forces, dt, 1, out);
 };
@@ -133,10 +133,10 @@ struct no_flow {
         solver(parameters const&, pore_network<Real, Dim> const&, Real, points_view<Real, Dim>, Real const*) {}
         template <class Lookup>
         void map_throats(Lookup const&) noexcept {}
-        void refresh_apertures(body_column<Real> const&, Real const*, int = 1) noexcept {}
+        void refresh_apertures(particle_column<Real> const&, Real const*, int = 1) noexcept {}
         /// Writes zeros to `tractions`.
         template <bool WithLedger>
-        void step(body_column<Real> const&, Real const*, Real, int = 1,
+        void step(particle_column<Real> const&, Real const*, Real, int = 1,
                   record_column<Real>* tractions = nullptr) noexcept {
             if (tractions) std::fill(tractions->data(), tractions->data() + 4 * tractions->size(), Real(0));
         }

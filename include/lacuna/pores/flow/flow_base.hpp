@@ -92,7 +92,8 @@ public:
     /// Updates the apertures of all throats, including skipped ones.
     /// \param particles records of all particles, as in particle_store; here and below
     /// \param normal_forces of the pairs, N, positive in tension, the first is 0; here and below
-    void refresh_apertures(body_column<Real> const& particles, Real const* normal_forces, int threads = 1) noexcept {
+    void refresh_apertures(particle_column<Real> const& particles, Real const* normal_forces,
+                           int threads = 1) noexcept {
         if (network_.bare()) return;
         for_each_chunk(throats_.chunks(true), threads, [&](int c) {
             throats_.template pass<true, false, aperture_type>(c, network_, particles.data(), normal_forces,

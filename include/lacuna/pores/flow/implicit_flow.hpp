@@ -108,7 +108,7 @@ public:
     /// \tparam WithLedger whether to update ledger()
     /// \param particles, normal_forces, tractions as in explicit_flow_solver::step()
     template <bool WithLedger>
-    void step(body_column<Real> const& particles, Real const* normal_forces, Real dt, int threads = 1,
+    void step(particle_column<Real> const& particles, Real const* normal_forces, Real dt, int threads = 1,
               record_column<Real>* tractions = nullptr) {
         if (this->network_.bare()) {
             if (tractions) tractions->assign(tractions->size(), record<Real>(Real(0)));

@@ -33,7 +33,7 @@ pack<T, W> gather(T const* base, Index const* index) noexcept {
 /// \param particles records of the particles, as in particle_store; here and below
 template <class T>
 record<T> load_particle(T const* particles, std::int32_t index) noexcept {
-    return record<T>::load(particles + body_column<T>::stride * std::size_t(std::uint32_t(index)));
+    return record<T>::load(particles + particle_column<T>::stride * std::size_t(std::uint32_t(index)));
 }
 
 /// Positions and radii of the particles index[0..W), transposed: result[l][k] is number l of particle index[k].

@@ -25,8 +25,8 @@ namespace lacuna {
 /// Records of particles, laid out as in particle_store, with the numbers that pores read: {x, y, -, radius}, in space
 /// {x, y, z, radius}, m.
 template <class Real, int Dim>
-body_column<Real> particle_records(points_view<Real, Dim> points, Real const* radii) {
-    body_column<Real> particles;
+particle_column<Real> particle_records(points_view<Real, Dim> points, Real const* radii) {
+    particle_column<Real> particles;
     particles.resize(points.size());
     for (std::size_t k = 0; k < points.size(); ++k) {
         for (int axis = 0; axis < Dim; ++axis) particles.at(k, axis) = points(k, axis);
@@ -104,7 +104,7 @@ public:
         std::array<vec<Real, Dim>, corners> x;
         std::array<Real, corners> r;
         for (std::size_t c = 0; c < corners; ++c) {
-            Real const* at = particles + body_column<Real>::stride * std::size_t(net.corner[c][pore]);
+            Real const* at = particles + particle_column<Real>::stride * std::size_t(net.corner[c][pore]);
             for (int axis = 0; axis < Dim; ++axis) x[c][axis] = at[axis];
             r[c] = at[3];
         }
@@ -142,7 +142,7 @@ public:
                 // Earlier pores have already loaded most of the other corners.
                 if (ahead > 0 && p + ahead < packs_)
                     prefetch_records<width>(particles, net.corner[corners - 1].data() + slot + ahead * width,
-                                         body_column<Real>::stride);
+                                         particle_column<Real>::stride);
                 shape = measure_pack(net, particles, slot);
                 lanes free_volume = volume_of(shape) * thickness, floor = lanes::load(net.size.data() + slot) * share;
                 volume = max(free_volume, floor);

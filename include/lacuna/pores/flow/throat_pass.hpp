@@ -128,7 +128,7 @@ public:
                 if (ahead > 0 && n + ahead < list.size())
                     prefetch_records<width>(particles,
                                             net.throat_particle[1].data() + std::size_t(list[n + ahead]) * width,
-                                            body_column<Real>::stride);
+                                            particle_column<Real>::stride);
                 auto [aperture, opening] = compute_opening<Aperture>(net, slot, particles, normal_forces, parameters);
                 conductance = lanes::load(factor_.data() + slot) * opening;
                 aperture.store(net.aperture.data() + slot);
