@@ -12,6 +12,7 @@
 #include "cartilage/calibrate/sensitivity.hpp"
 #include "cartilage/common/interruption.hpp"
 #include "cartilage/common/options.hpp"
+#include "cartilage/common/print_paths.hpp"
 #include "cartilage/run/run_options.hpp"
 #include "cartilage/run/run_output.hpp"
 #include "cartilage/run/simulate.hpp"
@@ -31,10 +32,6 @@ lacuna::run_directory directory_of(cartilage::options const& o) {
             o.force ? lacuna::earlier_results::replace : lacuna::earlier_results::refuse};
 }
 
-void print_paths(lacuna::run_directory const& out, std::initializer_list<char const*> names) {
-    for (char const* name : names) std::printf("%s\n", out.file(name).c_str());
-}
-
 int pack(cartilage::options const& o) {
     lacuna::run_directory out = directory_of(o);
     cartilage::specimen const specimen = cartilage::build_specimen(o);
@@ -43,7 +40,7 @@ int pack(cartilage::options const& o) {
     lacuna::save_packing(out.file("packing"), cartilage::scene_of(specimen, o));
     cartilage::write_statistics(out.file("statistics.json"), o, report);
     if (!o.quiet) cartilage::print_statistics(stdout, o, report);
-    if (!o.quiet) print_paths(out, {"packing.png", "packing.svg", "statistics.json"});
+    if (!o.quiet) cartilage::print_paths(out, {"packing.png", "packing.svg", "statistics.json"});
     return done;
 }
 
@@ -59,7 +56,8 @@ int run(cartilage::options const& o) {
     cartilage::write_summary(out.file("summary.json"), o, result);
     if (!o.quiet) {
         cartilage::print_result(stdout, o, result);
-        print_paths(out, {"packing.png", "packing.svg", "damage.png", "damage.svg", "cracks.csv", "summary.json"});
+        cartilage::print_paths(
+            out, {"packing.png", "packing.svg", "damage.png", "damage.svg", "cracks.csv", "summary.json"});
     }
     return result.interrupted ? interrupted() : done;
 }

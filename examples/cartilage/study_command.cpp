@@ -6,9 +6,8 @@
 #include <vector>
 
 #include <lacuna/observe/run_directory.hpp>
-#include <lacuna/observe/stop_signal.hpp>
 
-#include "cartilage/common/interruption.hpp"
+#include "cartilage/common/print_paths.hpp"
 #include "cartilage/common/unfinished_mark.hpp"
 #include "cartilage/common/write_whole.hpp"
 #include "cartilage/report/study_report.hpp"
@@ -56,8 +55,8 @@ void write_study(study_options const& o, lacuna::run_directory& out, study_resul
     write_whole(out.file(study_file), text_of(study));
     mark.end();
     if (o.quiet) return;
-    if (whole) std::printf("%s\n", out.file("report.html").c_str());
-    std::printf("%s\n", out.file(study_file).c_str());
+    if (whole) print_paths(out, {"report.html"});
+    print_paths(out, {study_file});
 }
 
 int merge(study_options const& o) {
@@ -77,13 +76,7 @@ int study(study_options const& o) {
     if (!o.force) refuse_other_study(o.out, study_frame(o));
     unfinished_mark const mark(out, "study");
     pool_report report;
-    study_result result;
-    try {
-        result = run_study(o, report);
-    } catch (interruption const&) {
-        mark.stopped_by(lacuna::stop_signal());
-        throw;
-    }
+    study_result const result = mark.stoppable([&] { return run_study(o, report); });
     write_study(o, out, result, o.shards == 1);
     if (!o.quiet)
         std::printf("%zu runs; from the cache: %zu packings, %zu runs\n", report.runs, report.packings_from_cache,

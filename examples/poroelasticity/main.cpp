@@ -32,7 +32,6 @@ request parse_command_line(int argc, char const* const* argv) {
                  "Writes CASE.csv and CASE.png. Exit status: 0 done, 1 failed, 2 bad request, 128 + number of a signal "
                  "that stopped it.",
                  "poroelasticity");
-    app.failure_message(CLI::FailureMessage::simple);
     app.add_option("--case", r.name, "terzaghi, mandel, cryer or darcy")->required()->type_name("CASE");
     app.add_option("--out", r.out, "directory for the files (.)")->type_name("DIR");
     app.add_flag("--force", r.force, "replace earlier files of the case in DIR");

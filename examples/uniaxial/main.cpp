@@ -70,7 +70,6 @@ command parse_command_line(int argc, char const* const* argv) {
         "Writes uniaxial.csv, uniaxial.json, uniaxial.png, uniaxial.svg. SI units.\n"
         "Exit status: 0 done, 1 a file could not be written, 2 bad request, 128 + number of a signal that stopped it.",
         "uniaxial");
-    app.failure_message(CLI::FailureMessage::simple);
     app.get_formatter()->column_width(28);
     app.add_option("--specimen", w.specimen, "random or lattice (random)")->type_name("KIND");
     for (std::size_t k = 0; k < std::size(numbers); ++k)

@@ -11,13 +11,10 @@
 #include <CLI/CLI.hpp>
 
 #include <lacuna/core/error.hpp>
-#include <lacuna/observe/stop_signal.hpp>
 
 #include "cartilage/calibrate/calibrate_report.hpp"
-#include "cartilage/common/interruption.hpp"
-#include "cartilage/common/option_parsing.hpp"
+#include "cartilage/common/print_paths.hpp"
 #include "cartilage/common/unfinished_mark.hpp"
-#include "cartilage/specimen/specimen.hpp"
 #include "cartilage/study/study.hpp"
 
 namespace cartilage {
@@ -36,15 +33,14 @@ std::vector<std::string> calibration_results() {
 
 std::optional<calibrate_options> parse_calibrate_command_line(int argc, char const* const* argv) {
     calibrate_options o;
+    o.study.out = "cartilage-calibration";
     model_arguments model;
     pool_arguments pool;
-    std::string names = free_by_default, evaluations = "40", resolution, highest, out = "cartilage-calibration";
+    std::string names = free_by_default, evaluations = "40", resolution, highest;
     CLI::App app("Searches for one set of open choices, for all zones, whose loads are nearest to the paper's eleven: "
                  "medians over the same packings for every set.\nResults go into a directory: calibration.html, "
                  "calibration.csv, calibration.json, best.choices. The same command continues where it was stopped.",
                  "cartilage calibrate");
-    app.failure_message(CLI::FailureMessage::simple);
-    app.get_formatter()->column_width(28);
     app.add_option("--free", names, std::string("choices to fit (") + free_by_default + ")")->type_name("LIST");
     app.add_option("--evaluations", evaluations, "largest number of sets to try (40)")->type_name("N");
     add_pool_options(app, pool);
@@ -52,16 +48,10 @@ std::optional<calibrate_options> parse_calibrate_command_line(int argc, char con
     app.add_option("--highest", highest, "highest load, MPa (300)")->type_name("MPA");
     add_model_options(app, model);
     add_run_options(app, model);
-    app.add_option("--out", out, "directory for the results (cartilage-calibration)")->type_name("DIR");
-    app.add_flag("--force", o.study.force, "replace the results in DIR");
-    app.add_flag("--quiet", o.study.quiet, "no progress, no table");
+    add_output_options(app, o.study);
     if (!parse_arguments(app, argc, argv)) return std::nullopt;
     if (!can_calibrate()) throw usage_error("calibrate: needs NLopt, but the program was built without NLopt");
-    o.study.out = out;
-    o.study.model = model_options(model);
-    o.study.model.what = command::run;
-    if (pool.seeds.empty() && !pool.quick) pool.seeds = "6";
-    read_pool_arguments(pool, o.study);
+    read_arguments(model, pool, o.study, 6);
     if (!pool.quick) o.study.loads.resolution = 0.05;
     char const* const rule = "a number from 0.002 to 1";
     if (!resolution.empty()) o.study.loads.resolution = positive_number("--resolution", resolution, rule);
@@ -83,11 +73,7 @@ std::optional<calibrate_options> parse_calibrate_command_line(int argc, char con
             throw usage_error(std::string("--free: ") + bad.what());
         }
     }
-    for (auto zone : o.study.zones) {
-        options one = o.study.model;
-        one.zone = zone;
-        validate_specimen(one);
-    }
+    validate_specimens(o.study);
     return o;
 }
 
@@ -107,19 +93,12 @@ int calibrate(calibrate_options const& o) {
         set.choices = c;
         auto requests = base;
         for (packing_request& r : requests) r.model = with_choices(r.model, c);
-        pool_options how;
-        how.jobs = o.study.jobs;
-        how.cache = o.study.cache;
-        how.progress = o.study.quiet ? nullptr : stderr;
         try {
             validate(c);
-            auto const packings = run_packings(requests, how);
+            auto const packings = mark.stoppable([&] { return run_packings(requests, pool_options(o.study)); });
             set.targets = targets_of(packings);
             set.first_layers = first_layers_of(packings);
             set.misfit = misfit_of(set.targets);
-        } catch (interruption const&) {
-            mark.stopped_by(lacuna::stop_signal());
-            throw;
         } catch (std::invalid_argument const& bad) {
             set.misfit = std::numeric_limits<double>::quiet_NaN();
             set.why = bad.what();
@@ -138,8 +117,7 @@ int calibrate(calibrate_options const& o) {
     mark.end();
     if (!o.study.quiet) {
         print_best(stdout, sets[best_of(tried)]);
-        for (char const* name : {"calibration.html", "calibration.csv", "calibration.json", "best.choices"})
-            std::printf("%s\n", out.file(name).c_str());
+        print_paths(out, calibration_results());
     }
     return 0;
 }

@@ -5,6 +5,7 @@
 
 #include <lacuna/core/error.hpp>
 
+#include "cartilage/common/choices_json.hpp"
 #include "cartilage/common/json_writer.hpp"
 #include "cartilage/common/write_whole.hpp"
 #include "cartilage/report/html.hpp"
@@ -44,15 +45,7 @@ int near_count(calibrated_set const& set) {
 void add_set(json_writer& json, calibrated_set const& set) {
     json.value("misfit", set.misfit);
     if (!set.why.empty()) json.value("why", set.why);
-    json.open('{', "choices");
-    for (choice_field const& f : choice_fields()) {
-        double const value = f.get(set.choices);
-        if (f.type == choice_field::kind::word || !std::isfinite(value))
-            json.value(f.name, f.text(set.choices));
-        else
-            json.value(f.name, value);
-    }
-    json.close('}');
+    add_choices(json, set.choices);
     json.open('[', "targets");
     for (target_result const& t : set.targets) {
         json.open('{');

@@ -11,13 +11,10 @@
 
 #include <lacuna/core/error.hpp>
 #include <lacuna/core/whole_file.hpp>
-#include <lacuna/observe/stop_signal.hpp>
 
 #include "cartilage/calibrate/sensitivity_report.hpp"
-#include "cartilage/common/interruption.hpp"
-#include "cartilage/common/option_parsing.hpp"
+#include "cartilage/common/print_paths.hpp"
 #include "cartilage/common/unfinished_mark.hpp"
-#include "cartilage/specimen/specimen.hpp"
 #include "cartilage/study/study.hpp"
 
 namespace cartilage {
@@ -70,28 +67,21 @@ std::vector<std::string> sensitivity_results() {
 
 std::optional<sensitivity_options> parse_sensitivity_command_line(int argc, char const* const* argv) {
     sensitivity_options o;
+    o.study.out = "cartilage-sensitivity";
     model_arguments model;
     pool_arguments pool;
-    std::string only, out = "cartilage-sensitivity";
+    std::string only;
     CLI::App app("Shows the effect of each open choice on the loads of Table 3: one choice at a time, on the same "
                  "packings.\nResults go into a directory: sensitivity.csv, sensitivity.html, a tornado plot for each "
                  "zone and load.",
                  "cartilage sensitivity");
-    app.failure_message(CLI::FailureMessage::simple);
-    app.get_formatter()->column_width(28);
     add_pool_options(app, pool);
     app.add_option("--only", only, "choices to vary (all)")->type_name("LIST");
     add_model_options(app, model);
     add_run_options(app, model);
-    app.add_option("--out", out, "directory for the results (cartilage-sensitivity)")->type_name("DIR");
-    app.add_flag("--force", o.study.force, "replace the results in DIR");
-    app.add_flag("--quiet", o.study.quiet, "no progress, no table");
+    add_output_options(app, o.study);
     if (!parse_arguments(app, argc, argv)) return std::nullopt;
-    o.study.out = out;
-    o.study.model = model_options(model);
-    o.study.model.what = command::run;
-    if (pool.seeds.empty() && !pool.quick) pool.seeds = "6";
-    read_pool_arguments(pool, o.study);
+    read_arguments(model, pool, o.study, 6);
     for (std::string const& name : parts_of(only, ',')) {
         if (only.empty()) break;
         try {
@@ -100,11 +90,7 @@ std::optional<sensitivity_options> parse_sensitivity_command_line(int argc, char
             throw usage_error(std::string("--only: ") + bad.what());
         }
     }
-    for (auto zone : o.study.zones) {
-        options one = o.study.model;
-        one.zone = zone;
-        validate_specimen(one);
-    }
+    validate_specimens(o.study);
     return o;
 }
 
@@ -123,18 +109,8 @@ int sensitivity(sensitivity_options const& o) {
             r.model = with_choices(r.model, changed);
             requests.push_back(std::move(r));
         }
-    pool_options how;
-    how.jobs = o.study.jobs;
-    how.cache = o.study.cache;
-    how.progress = o.study.quiet ? nullptr : stderr;
     unfinished_mark const mark(out, "sensitivity");
-    std::vector<packing_result> results;
-    try {
-        results = run_packings(requests, how);
-    } catch (interruption const&) {
-        mark.stopped_by(lacuna::stop_signal());
-        throw;
-    }
+    auto const results = mark.stoppable([&] { return run_packings(requests, pool_options(o.study)); });
     auto const group = [&](std::size_t k) {
         auto const first = results.begin() + std::ptrdiff_t(k * base.size());
         return std::vector<packing_result>(first, first + std::ptrdiff_t(base.size()));
@@ -146,7 +122,7 @@ int sensitivity(sensitivity_options const& o) {
     mark.end();
     if (!o.study.quiet) {
         print_sensitivity(stdout, variations);
-        std::printf("%s\n%s\n", out.file("sensitivity.csv").c_str(), out.file("sensitivity.html").c_str());
+        print_paths(out, {"sensitivity.csv", "sensitivity.html"});
     }
     return 0;
 }

@@ -127,9 +127,7 @@ void write_sensitivity(std::string const& directory, study_options const& o, std
         for (threshold const what : all_thresholds) {
             if (changes_of(variations, zone, what).empty()) continue;
             figure const f = draw(directory, variations, zone, what);
-            page += "<figure><h3>" + html_text(f.title) + "</h3>\n" +
-                    html_picture(directory + "/" + f.stem + ".svg", "image/svg+xml", f.title) + "\n<figcaption>" +
-                    html_text(f.caption) + "</figcaption></figure>\n";
+            page += html_figure(directory, f, f.title);
         }
     page += "</div>\n";
     std::vector<std::vector<std::string>> rows;

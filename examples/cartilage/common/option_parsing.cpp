@@ -75,6 +75,7 @@ double positive_number(char const* option, std::string const& word, char const* 
 }
 
 bool parse_arguments(CLI::App& app, int argc, char const* const* argv) {
+    app.get_formatter()->column_width(28);
     auto const version = programs::version_text("cartilage");
     app.set_version_flag("--version", version);
     for (auto* command : app.get_subcommands([](CLI::App const*) { return true; }))

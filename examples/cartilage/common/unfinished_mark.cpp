@@ -34,8 +34,8 @@ void unfinished_mark::begin_results() const {
     out_.keep();
 }
 
-void unfinished_mark::stopped_by(int signal) const {
-    if (exists()) write("stopped by " + lacuna::signal_name(signal));
+void unfinished_mark::record_signal() const {
+    if (exists()) write("stopped by " + lacuna::signal_name(lacuna::stop_signal()));
 }
 
 void unfinished_mark::write(std::string const& ended) const {

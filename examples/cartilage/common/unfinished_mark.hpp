@@ -5,6 +5,8 @@
 
 #include <lacuna/observe/run_directory.hpp>
 
+#include "cartilage/common/interruption.hpp"
+
 namespace cartilage {
 
 /// Marks a study, sensitivity or calibration without results: a file unfinished-COMMAND.json in its directory. The file
@@ -19,12 +21,22 @@ public:
     void begin_results() const;
     /// Call after the results are written. Removes the mark.
     void end() const { out_.remove(name_of(command_)); }
-    /// Records the signal that stopped the command. \throws std::runtime_error if the file cannot be written
-    void stopped_by(int signal) const;
+    /// Result of work(). If a signal ends it, the mark records the signal, and the exception is passed on.
+    /// \throws interruption; std::runtime_error if the file cannot be written
+    template <class Work>
+    auto stoppable(Work const& work) const {
+        try {
+            return work();
+        } catch (interruption const&) {
+            record_signal();
+            throw;
+        }
+    }
 
 private:
     static std::string name_of(std::string const& command) { return "unfinished-" + command + ".json"; }
     bool exists() const;
+    void record_signal() const;
     void write(std::string const& ended) const;
     lacuna::run_directory& out_;
     std::string command_;

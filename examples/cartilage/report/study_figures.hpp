@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <lacuna/draw/plot.hpp>
@@ -44,6 +45,10 @@ std::vector<figure> draw_front_figures(std::string const& directory, study_resul
 /// \name Sizes, colours and words that the figures share.
 /// \{
 inline constexpr lacuna::plot_style figure_style{17};
+inline constexpr double figure_width = 560; ///< px
+/// Frames of two plots one above the other, and the height of their page, px.
+inline constexpr lacuna::rectangle upper_plot{76, 64, 540, 330}, lower_plot{76, 424, 540, 668};
+inline constexpr double two_plots_height = 728;
 inline constexpr lacuna::color tension_ink{0.80, 0.15, 0.12};
 inline constexpr lacuna::color shear_ink{0.50, 0.20, 0.65};
 inline constexpr lacuna::color paper_ink{0.85, 0.45, 0.05};
@@ -57,6 +62,22 @@ std::string number_text(char const* format, double value);
 lacuna::plot_axis load_axis(double lowest, double highest);
 /// "1 packing", "2 packings".
 std::string count_text(std::size_t count, char const* noun);
+/// The legend in the top row of a page, from x = `left` on.
+void draw_legend(lacuna::canvas& page, double left, std::vector<lacuna::legend_entry> const& entries);
 /// \}
+
+/// A figure of one zone: files KIND-ZONE.png and KIND-ZONE.svg. \param height of the page, px
+/// \param draw callable (canvas&) \throws std::runtime_error if a file cannot be written
+template <class Draw>
+figure draw_zone_figure(std::string const& directory, std::string const& kind, lacuna::cartilage_zone zone,
+                        std::string caption, double height, Draw const& draw) {
+    figure f{kind + "-" + std::string(lacuna::to_string(zone)), zone_title(zone), std::move(caption)};
+    lacuna::save_canvas_png_svg(directory + "/" + f.stem, figure_width, height, draw);
+    return f;
+}
+
+/// An HTML element with the embedded picture and the caption. \param alt text in place of the picture
+/// \throws std::runtime_error if the picture cannot be read
+std::string html_figure(std::string const& directory, figure const& f, std::string const& alt);
 
 } // namespace cartilage

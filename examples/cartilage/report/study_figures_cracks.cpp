@@ -21,7 +21,6 @@ using lacuna::plot;
 using lacuna::plot_mark;
 using lacuna::rectangle;
 
-constexpr double width = 560;
 constexpr std::size_t slices = 10;
 
 /// The cracks of a zone, the first crack of each packing, and the counts of each mode in each tenth of the height.
@@ -99,8 +98,8 @@ void draw_map(canvas& page, crack_map const& map, double length_um, double heigh
 
     double most = 0;
     for (std::size_t k = 0; k < slices; ++k) most = std::max(most, map.tension_in[k] + map.shear_in[k]);
-    rectangle const counts_frame{map_frame.right + 40, map_frame.low, std::max(map_frame.right + 120, width - 20),
-                                 map_frame.high};
+    rectangle const counts_frame{map_frame.right + 40, map_frame.low,
+                                 std::max(map_frame.right + 120, figure_width - 20), map_frame.high};
     plot counts(page, counts_frame,
                 {0, 1.05 * most, "broken bonds", axis_scale::linear, counts_frame.width() < 200 ? 3 : 5},
                 {0, height_um, "", axis_scale::linear, 6, {{0, ""}}}, figure_style);
@@ -110,11 +109,10 @@ void draw_map(canvas& page, crack_map const& map, double length_um, double heigh
         counts.box(0, map.tension_in[k], low, high, tension_ink);
         counts.box(map.tension_in[k], map.tension_in[k] + map.shear_in[k], low, high, shear_ink);
     }
-    lacuna::draw_legend_row(page, {map_frame.left, 20}, width - map_frame.left,
-                            {{legend_mark::disc, tension_ink, "tension"},
-                             {legend_mark::disc, shear_ink, "shear"},
-                             {legend_mark::ring, figure_style.ink, "first of a packing"}},
-                            0.9 * figure_style.text_size, figure_style.ink);
+    draw_legend(page, map_frame.left,
+                {{legend_mark::disc, tension_ink, "tension"},
+                 {legend_mark::disc, shear_ink, "shear"},
+                 {legend_mark::ring, figure_style.ink, "first of a packing"}});
 }
 
 std::string sentence_of(layer_order const& order) {
@@ -158,10 +156,8 @@ void draw_layers(canvas& page, layer_order const& order, rectangle const& frame)
     }
     for (auto const& [x, word] : {std::pair{10.0, "all"}, std::pair{50.0, "first"}})
         page.text({frame.right + x, frame.low - 16}, word, 0.9 * figure_style.text_size, figure_style.ink);
-    lacuna::draw_legend_row(
-        page, {frame.left, 20}, width - frame.left,
-        {{legend_mark::disc, faint_ink, "one packing"}, {legend_mark::line, lacuna::plot_ink(0), "median"}},
-        0.9 * figure_style.text_size, figure_style.ink);
+    draw_legend(page, frame.left,
+                {{legend_mark::disc, faint_ink, "one packing"}, {legend_mark::line, lacuna::plot_ink(0), "median"}});
 }
 
 } // namespace
@@ -172,12 +168,9 @@ std::vector<figure> draw_crack_figures(std::string const& directory, study_resul
     for (auto const zone : all_zones) {
         auto const map = crack_map_of(packings_of(study, zone), study.height_um);
         if (map.count() == 0) continue;
-        figure f{"cracks-" + std::string(lacuna::to_string(zone)), zone_title(zone), sentence_of(map, study.height_um),
-                 false};
-        lacuna::save_canvas_png_svg(
-            directory + "/" + f.stem, width, std::ceil(64 + scale * study.height_um + 60),
-            [&](canvas& page) { draw_map(page, map, study.length_um, study.height_um, scale); });
-        figures.push_back(std::move(f));
+        figures.push_back(draw_zone_figure(
+            directory, "cracks", zone, sentence_of(map, study.height_um), std::ceil(64 + scale * study.height_um + 60),
+            [&](canvas& page) { draw_map(page, map, study.length_um, study.height_um, scale); }));
     }
     return figures;
 }
@@ -187,11 +180,9 @@ std::vector<figure> draw_layer_figures(std::string const& directory, study_resul
     for (auto const zone : all_zones) {
         auto const order = layer_order_of(packings_of(study, zone));
         if (order.packings == 0) continue;
-        figure f{"layers-" + std::string(lacuna::to_string(zone)), zone_title(zone), sentence_of(order), false};
         rectangle const frame{118, 64, 462, 64 + std::max(120.0, 22.0 * double(order.layers.size()))};
-        lacuna::save_canvas_png_svg(directory + "/" + f.stem, width, frame.high + 60,
-                                    [&](canvas& page) { draw_layers(page, order, frame); });
-        figures.push_back(std::move(f));
+        figures.push_back(draw_zone_figure(directory, "layers", zone, sentence_of(order), frame.high + 60,
+                                           [&](canvas& page) { draw_layers(page, order, frame); }));
     }
     return figures;
 }

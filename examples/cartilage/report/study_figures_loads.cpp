@@ -17,7 +17,6 @@ using lacuna::legend_mark;
 using lacuna::plot;
 using lacuna::plot_mark;
 
-constexpr double width = 560;
 constexpr lacuna::rectangle frame{76, 64, 540, 360};
 constexpr double height = 420;
 constexpr lacuna::color ours_ink{0.10, 0.35, 0.75};
@@ -69,11 +68,10 @@ figure draw_threshold(std::string const& directory, study_result const& study,
                    {0.8 * study.lowest_MPa, 1.5 * study.highest_MPa, "load (MPa)", axis_scale::logarithmic, 8},
                    figure_style);
         plane.draw_axes();
-        lacuna::draw_legend_row(page, {frame.left, 20}, width - frame.left,
-                                {{legend_mark::disc, faint_ink, "one packing"},
-                                 {legend_mark::line, ours_ink, "median, 95 %"},
-                                 {legend_mark::diamond, paper_ink, "paper"}},
-                                0.9 * figure_style.text_size, figure_style.ink);
+        draw_legend(page, frame.left,
+                    {{legend_mark::disc, faint_ink, "one packing"},
+                     {legend_mark::line, ours_ink, "median, 95 %"},
+                     {legend_mark::diamond, paper_ink, "paper"}});
         plane.rule_y(study.highest_MPa, figure_style.ink, 1);
         for (std::size_t k = 0; k < zones.size(); ++k) {
             table3_cell const& cell = *zones[k];
@@ -95,7 +93,7 @@ figure draw_threshold(std::string const& directory, study_result const& study,
         }
         plane.word(double(zones.size()) - 0.53, beyond, "none", figure_style.ink, lacuna::text_align::right);
     };
-    lacuna::save_canvas_png_svg(directory + "/" + f.stem, width, height, draw);
+    lacuna::save_canvas_png_svg(directory + "/" + f.stem, figure_width, height, draw);
     f.caption = "Medians in MPa: ";
     for (std::size_t k = 0; k < zones.size(); ++k) f.caption += (k ? ", " : "") + median_words(*zones[k], study);
     f.caption += "." + order_words(zones) + scatter_words(zones);
@@ -137,7 +135,6 @@ std::vector<figure> draw_damage_figures(std::string const& directory, study_resu
                 highest = std::max(highest, p[0]);
                 most = std::max(most, p[1]);
             }
-        figure f{"damage-" + std::string(lacuna::to_string(zone)), zone_title(zone), "", false};
         auto const draw = [&](canvas& page) {
             page.clear({1, 1, 1});
             plot plane(page, frame, load_axis(lowest, highest), {0, std::max(1.06 * most, 1.0), "broken bonds (%)"},
@@ -147,19 +144,16 @@ std::vector<figure> draw_damage_figures(std::string const& directory, study_resu
             for (series const& line : all)
                 if (line.size() == 1) plane.markers(line, plot_mark::disc, faint_ink, 2.5);
             plane.line(middle, ours_ink, 3.5);
-            lacuna::draw_legend_row(
-                page, {frame.left, 20}, width - frame.left,
-                {{legend_mark::line, faint_ink, "one packing"}, {legend_mark::dash, ours_ink, "median"}},
-                0.9 * figure_style.text_size, figure_style.ink);
+            draw_legend(page, frame.left,
+                        {{legend_mark::line, faint_ink, "one packing"}, {legend_mark::dash, ours_ink, "median"}});
         };
-        lacuna::save_canvas_png_svg(directory + "/" + f.stem, width, height, draw);
-        f.caption = count_text(all.size(), "packing") + " with runs to the end, ";
-        f.caption += "up to " + number_text("%.1f", most) + " % broken.";
+        std::string caption = count_text(all.size(), "packing") + " with runs to the end, up to " +
+                              number_text("%.1f", most) + " % broken.";
         if (middle.size() > 1)
-            f.caption += " The median goes from " + number_text("%.1f", middle.front()[1]) + " % at " +
-                          load_number(middle.front()[0]) + " MPa to " + number_text("%.1f", middle.back()[1]) +
-                          " % at " + load_number(middle.back()[0]) + " MPa.";
-        figures.push_back(std::move(f));
+            caption += " The median goes from " + number_text("%.1f", middle.front()[1]) + " % at " +
+                       load_number(middle.front()[0]) + " MPa to " + number_text("%.1f", middle.back()[1]) + " % at " +
+                       load_number(middle.back()[0]) + " MPa.";
+        figures.push_back(draw_zone_figure(directory, "damage", zone, std::move(caption), height, draw));
     }
     return figures;
 }

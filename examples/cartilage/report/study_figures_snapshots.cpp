@@ -20,8 +20,6 @@ using lacuna::plot;
 using lacuna::plot_mark;
 using lacuna::rectangle;
 
-constexpr double width = 560, height = 728;
-constexpr rectangle upper{76, 64, 540, 330}, lower{76, 424, 540, 668};
 constexpr lacuna::color stress_ink{0.13, 0.13, 0.15}, pressure_ink{0.10, 0.35, 0.75};
 
 std::string title_of(snapshot const& s) {
@@ -59,7 +57,7 @@ void draw_fronts(canvas& page, snapshot const& s, double height_um) {
         return out;
     };
     page.clear({1, 1, 1});
-    plot positions(page, upper, times, {0.0, height_um, "height (µm), load on top"}, figure_style);
+    plot positions(page, upper_plot, times, {0.0, height_um, "height (µm), load on top"}, figure_style);
     positions.draw_axes();
     series cracks;
     for (load_run::crack const& c : s.run.cracks) cracks.push_back({1e9 * c.time, 1e6 * c.y});
@@ -82,19 +80,18 @@ void draw_fronts(canvas& page, snapshot const& s, double height_um) {
     }
     if (highest > 0) {
         lowest = std::max(lowest, 1e-5 * highest);
-        plot magnitudes(page, lower, times,
-                  {0.8 * lowest, 1.6 * highest, "largest mean of a layer (MPa)", axis_scale::logarithmic, 7},
-                  figure_style);
+        plot magnitudes(page, lower_plot, times,
+                        {0.8 * lowest, 1.6 * highest, "largest mean of a layer (MPa)", axis_scale::logarithmic, 7},
+                        figure_style);
         magnitudes.draw_axes();
         magnitudes.line(stress, stress_ink, 2.4);
         magnitudes.line(pressure, pressure_ink, 2.4);
         if (broken) magnitudes.rule_x(1e9 * broken->time, tension_ink, 1.6);
     }
-    lacuna::draw_legend_row(page, {upper.left, 20}, width - upper.left,
-                            {{legend_mark::line, stress_ink, "stress"},
-                             {legend_mark::line, pressure_ink, "pore pressure"},
-                             {legend_mark::line, tension_ink, "bond breaks"}},
-                            0.9 * figure_style.text_size, figure_style.ink);
+    draw_legend(page, upper_plot.left,
+                {{legend_mark::line, stress_ink, "stress"},
+                 {legend_mark::line, pressure_ink, "pore pressure"},
+                 {legend_mark::line, tension_ink, "bond breaks"}});
 }
 
 std::string arrival_words(char const* what, series const& front, std::optional<double> const& speed) {
@@ -143,7 +140,7 @@ std::vector<figure> draw_front_figures(std::string const& directory, study_resul
     for (snapshot const& s : study.snapshots) {
         if (s.fronts.size() < 2 || !(s.fronts.back().time > 0)) continue;
         figure f{"fronts-" + s.figure, title_of(s), front_words(s, study.height_um), false};
-        lacuna::save_canvas_png_svg(directory + "/" + f.stem, width, height,
+        lacuna::save_canvas_png_svg(directory + "/" + f.stem, figure_width, two_plots_height,
                                     [&](canvas& page) { draw_fronts(page, s, study.height_um); });
         figures.push_back(std::move(f));
     }

@@ -16,8 +16,6 @@ using lacuna::legend_mark;
 using lacuna::plot;
 using lacuna::plot_mark;
 
-constexpr double width = 560, height = 728;
-constexpr lacuna::rectangle upper{76, 64, 540, 330}, lower{76, 424, 540, 668};
 constexpr lacuna::color elastic_ink{0.10, 0.35, 0.75}, slow_ink{0.80, 0.30, 0.10};
 constexpr double elastic_ns = 1e9 * first_crack_times::elastic_until;
 
@@ -66,12 +64,12 @@ void draw(canvas& page, first_crack_times const& t) {
     };
     page.clear({1, 1, 1});
     auto loads = load_axis(load.low, load.high);
-    plot times(page, upper, loads, log_axis(time, "time of the first crack (ns)"), figure_style);
+    plot times(page, upper_plot, loads, log_axis(time, "time of the first crack (ns)"), figure_style);
     times.box(loads.low, loads.high, times.y().low, elastic_ns, {0.10, 0.35, 0.75, 0.10});
     times.draw_axes();
     times.markers(t.elastic, plot_mark::disc, elastic_ink, 3.2);
     times.markers(t.slow, plot_mark::ring, slow_ink, 3.2);
-    plot below(page, lower, loads, log_axis(product, "time times √load (ns √MPa)"), figure_style);
+    plot below(page, lower_plot, loads, log_axis(product, "time times √load (ns √MPa)"), figure_style);
     if (t.product > 0) below.box(loads.low, loads.high, t.product_low, t.product_high, {0.80, 0.30, 0.10, 0.12});
     below.draw_axes();
     below.markers(products(t.elastic), plot_mark::disc, elastic_ink, 3.2);
@@ -85,11 +83,10 @@ void draw(canvas& page, first_crack_times const& t) {
         }
         times.dashed_line(curve, slow_ink, 1.6);
     }
-    lacuna::draw_legend_row(page, {upper.left, 20}, width - upper.left,
-                            {{legend_mark::disc, elastic_ink, "elastic"},
-                             {legend_mark::ring, slow_ink, "later"},
-                             {legend_mark::dashes, slow_ink, "kinematic: t √P constant"}},
-                            0.9 * figure_style.text_size, figure_style.ink);
+    draw_legend(page, upper_plot.left,
+                {{legend_mark::disc, elastic_ink, "elastic"},
+                 {legend_mark::ring, slow_ink, "later"},
+                 {legend_mark::dashes, slow_ink, "kinematic: t √P constant"}});
 }
 
 } // namespace
@@ -99,9 +96,8 @@ std::vector<figure> draw_first_crack_figures(std::string const& directory, study
     for (auto const zone : all_zones) {
         auto const times = first_crack_times_of(packings_of(study, zone));
         if (times.count() == 0) continue;
-        figure f{"first-crack-" + std::string(lacuna::to_string(zone)), zone_title(zone), sentence_of(times), false};
-        lacuna::save_canvas_png_svg(directory + "/" + f.stem, width, height, [&](canvas& page) { draw(page, times); });
-        figures.push_back(std::move(f));
+        figures.push_back(draw_zone_figure(directory, "first-crack", zone, sentence_of(times), two_plots_height,
+                                           [&](canvas& page) { draw(page, times); }));
     }
     return figures;
 }

@@ -163,13 +163,7 @@ std::string limits(study_result const& study, std::vector<table3_cell> const& ce
 
 std::string show(std::string const& directory, figure_section const& section) {
     std::string text = heading(section.title) + paragraph(section.explanation) + "<div class=\"figures\">\n";
-    for (figure const& f : section.figures) {
-        std::string const path = directory + "/" + f.stem;
-        text += "<figure><h3>" + html_text(f.title) + "</h3>\n";
-        text += f.as_png ? html_picture(path + ".png", "image/png", section.title + ", " + f.title)
-                        : html_picture(path + ".svg", "image/svg+xml", section.title + ", " + f.title);
-        text += "\n<figcaption>" + html_text(f.caption) + "</figcaption></figure>\n";
-    }
+    for (figure const& f : section.figures) text += html_figure(directory, f, section.title + ", " + f.title);
     return text + "</div>\n";
 }
 

@@ -66,8 +66,6 @@ std::optional<options> parse_command_line(int argc, char const* const* argv, std
                  "128 + number of the signal that stopped it.",
                  "cartilage");
     app.require_subcommand(1);
-    app.failure_message(CLI::FailureMessage::simple);
-    app.get_formatter()->column_width(28);
 
     CLI::App& run = *app.add_subcommand("run", "Load a specimen and see where it cracks");
     add_specimen_options(run, args);

@@ -7,6 +7,7 @@
 #include <lacuna/core/text.hpp>
 #include <lacuna/observe/progress.hpp>
 
+#include "cartilage/common/choices_json.hpp"
 #include "cartilage/common/json_writer.hpp"
 #include "cartilage/common/write_whole.hpp"
 
@@ -17,15 +18,7 @@ namespace {
 void add_request(json_writer& json, options const& o) {
     json.value("zone", lacuna::to_string(o.zone));
     json.value("preset", o.preset);
-    json.open('{', "choices");
-    for (choice_field const& f : choice_fields()) {
-        double const value = f.get(o.choices);
-        if (f.type == choice_field::kind::word || !std::isfinite(value))
-            json.value(f.name, f.text(o.choices));
-        else
-            json.value(f.name, value);
-    }
-    json.close('}');
+    add_choices(json, o.choices);
     json.value("seed", o.seed);
     json.value("length_um", o.length_um);
     json.value("height_um", o.height_um);

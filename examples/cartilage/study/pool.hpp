@@ -10,6 +10,7 @@
 
 #include "cartilage/common/options.hpp"
 #include "cartilage/study/search.hpp"
+#include "cartilage/study/study_options.hpp"
 #include "cartilage/study/study_result.hpp"
 
 /// \file
@@ -31,6 +32,11 @@ struct pool_report {
 };
 
 struct pool_options {
+    pool_options() = default;
+    /// Jobs, cache and progress of a study.
+    explicit pool_options(study_options const& o)
+        : jobs(o.jobs), cache(o.cache), progress(o.quiet ? nullptr : stderr) {}
+
     int jobs = 0;                 ///< runs at the same time; 0: one for each processor
     std::string cache;            ///< directory of stored results, created if missing; empty: no cache
     std::FILE* progress = nullptr; ///< null: no progress

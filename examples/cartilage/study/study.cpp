@@ -131,10 +131,7 @@ std::vector<packing_request> requests_of(study_options const& o) {
 
 study_result run_study(study_options const& o, pool_report& report) {
     study_result result = study_frame(o);
-    pool_options how;
-    how.jobs = o.jobs;
-    how.cache = o.cache;
-    how.progress = o.quiet ? nullptr : stderr;
+    pool_options how(o);
     how.report = &report;
     auto const pictures = pictures_of(o);
     result_cache const cache(o.cache);

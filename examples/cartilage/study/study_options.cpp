@@ -5,7 +5,6 @@
 
 #include <CLI/CLI.hpp>
 
-#include "cartilage/common/option_parsing.hpp"
 #include "cartilage/specimen/specimen.hpp"
 
 namespace cartilage {
@@ -43,9 +42,17 @@ void add_pool_options(CLI::App& app, pool_arguments& args) {
         ->type_name("DIR");
 }
 
-void read_pool_arguments(pool_arguments const& args, study_options& o) {
+void add_output_options(CLI::App& app, study_options& o, std::string const& replaced) {
+    app.add_option("--out", o.out, "directory for the results (" + o.out + ")")->type_name("DIR");
+    app.add_flag("--force", o.force, "replace " + replaced + " in DIR");
+    app.add_flag("--quiet", o.quiet, "no progress, no table");
+}
+
+void read_arguments(model_arguments const& model, pool_arguments const& args, study_options& o, std::uint64_t seeds) {
+    o.model = model_options(model);
+    o.model.what = command::run;
     o.zones = zones_of(args.zones);
-    o.seeds = args.quick ? 3 : 20;
+    o.seeds = args.quick ? 3 : seeds;
     if (!args.seeds.empty())
         o.seeds = whole_number<std::uint64_t>("--seeds", args.seeds, 1, 100000, "a whole number from 1 to 100000");
     if (args.quick) o.loads.resolution = 0.25;
@@ -54,43 +61,38 @@ void read_pool_arguments(pool_arguments const& args, study_options& o) {
     o.cache = args.cache.empty() ? o.out + "/cache" : args.cache;
 }
 
+void validate_specimens(study_options const& o) {
+    for (auto const zone : o.zones) {
+        options one = o.model;
+        one.zone = zone;
+        validate_specimen(one);
+    }
+}
+
 std::optional<study_options> parse_study_command_line(int argc, char const* const* argv) {
     study_options o;
+    o.out = "cartilage-study";
     model_arguments model;
     pool_arguments pool;
-    std::string shard, out = "cartilage-study";
+    std::string shard;
     CLI::App app("Finds the loads of first crack, capacity and complete damage for many packings of each zone.\n"
                  "Results go into a directory: study.json, table3.csv, report.html and its plots. A study that was "
                  "stopped continues where it was; a repeated study takes its results from the cache.",
                  "cartilage study");
-    app.failure_message(CLI::FailureMessage::simple);
-    app.get_formatter()->column_width(28);
     add_pool_options(app, pool);
     app.add_option("--shard", shard, "only every N-th packing, from the K-th on; see merge")->type_name("K/N");
     add_model_options(app, model);
     add_run_options(app, model);
     app.add_flag("--no-snapshots", [&](std::int64_t) { o.pictures = false; }, "leave out the runs of Figures 10 to 12");
-    auto const add_output_options = [&](CLI::App& command) {
-        command.add_option("--out", out, "directory for the results (cartilage-study)")->type_name("DIR");
-        command.add_flag("--force", o.force, "replace another study in DIR");
-        command.add_flag("--quiet", o.quiet, "no progress, no table");
-    };
-    add_output_options(app);
+    add_output_options(app, o, "another study");
     CLI::App& merge = *app.add_subcommand("merge", "Join the parts of a study and write the report");
     merge.add_option("DIR", o.merge, "results of the parts")->required()->type_name("");
-    add_output_options(merge);
+    add_output_options(merge, o, "another study");
     if (!parse_arguments(app, argc, argv)) return std::nullopt;
-    o.out = out;
     if (merge.parsed()) return o;
-    o.model = model_options(model);
-    o.model.what = command::run;
-    read_pool_arguments(pool, o);
+    read_arguments(model, pool, o);
     if (!shard.empty()) read_shard(shard, o);
-    for (auto zone : o.zones) {
-        options one = o.model;
-        one.zone = zone;
-        validate_specimen(one);
-    }
+    validate_specimens(o);
     return o;
 }
 

@@ -6,12 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "cartilage/common/options.hpp"
+#include "cartilage/common/option_parsing.hpp"
 #include "cartilage/study/search.hpp"
-
-namespace CLI {
-class App;
-}
 
 namespace cartilage {
 
@@ -35,8 +31,14 @@ struct pool_arguments {
 };
 /// Adds these options.
 void add_pool_options(CLI::App& app, pool_arguments& args);
-/// Sets zones, seeds, loads, time step, jobs and cache. \throws usage_error
-void read_pool_arguments(pool_arguments const& args, study_options& o);
+/// Adds --out, --force and --quiet. \param o its `out` is the default \param replaced by --force
+void add_output_options(CLI::App& app, study_options& o, std::string const& replaced = "the results");
+/// Sets model, zones, seeds, loads, time step, jobs and cache. \param seeds without --seeds and --quick
+/// \throws usage_error, std::invalid_argument
+void read_arguments(model_arguments const& model, pool_arguments const& args, study_options& o,
+                    std::uint64_t seeds = 20);
+/// \throws std::invalid_argument for a zone in which no specimen can be built
+void validate_specimens(study_options const& o);
 
 /// Reads the command line after the word `study`. \copydetails parse_command_line
 std::optional<study_options> parse_study_command_line(int argc, char const* const* argv);
