@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# cairo with its PNG and SVG surfaces as the target LacunaCairo::cairo; headers are included as <cairo.h>, <cairo-svg.h>.
+# cairo with its PNG and SVG surfaces as the target LacunaCairo::cairo; headers are included as <cairo.h>,
+# <cairo-svg.h>.
 
 if(NOT TARGET LacunaCairo::cairo)
   find_path(LacunaCairo_INCLUDE_DIR cairo.h PATH_SUFFIXES cairo)

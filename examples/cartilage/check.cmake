@@ -86,7 +86,8 @@ if(CASE STREQUAL "refusals")
   refused("--out" run --zone surface --load 5 --out kept/inside)
   call(0 --help)
   call(0 run --help)
-  foreach(text IN ITEMS "fill=0.9 area fraction" "a number from 0.6 to 1" "duration=0 ns" "top_and_sides, top or sealed" "um (from" "MPa")
+  foreach(text IN ITEMS "fill=0.9 area fraction" "a number from 0.6 to 1" "duration=0 ns" "top_and_sides, top or sealed"
+    "um (from" "MPa")
     string(FIND "${out}" "${text}" position)
     if(position EQUAL -1)
       message(FATAL_ERROR "run --help lacks '${text}':\n${out}")
@@ -100,7 +101,8 @@ if(CASE STREQUAL "refusals")
   refused("stduy: must be run, pack, study, sensitivity or calibrate (did you mean study?)" stduy)
   refused("--zone surfac: must be surface, middle, deep or whole (did you mean surface?)" run --zone surfac --load 5)
   refused("--zones dep: must be surface, middle, deep or whole (did you mean deep?)" study --zones surface,dep)
-  refused("--preset litteral: must be literal, lattice or calibrated (did you mean literal?)" run --zone deep --load 5 --preset litteral)
+  refused("--preset litteral: must be literal, lattice or calibrated (did you mean literal?)" run --zone deep --load 5
+    --preset litteral)
   refused("(did you mean fill?)" run --zone deep --load 5 --set fil=0.8)
   refused("radii = equall: must be random or equal (did you mean equal?)" run --zone deep --load 5 --set radii=equall)
   refused("(did you mean thickness?)" calibrate --free thicknes)
@@ -113,8 +115,10 @@ if(CASE STREQUAL "refusals")
   file(WRITE "${input}/nothing/study.json" "")
   file(WRITE "${input}/other/study.json" "{}")
   execute_process(COMMAND head -c 300 /dev/zero OUTPUT_FILE "${input}/zeros/study.json")
-  refused("nothing/study.json: must be a file with lines" run --zone deep --load 5 --choices "${input}/nothing/study.json")
-  refused("zeros/study.json:1 = a NUL byte: must be text" run --zone deep --load 5 --choices "${input}/zeros/study.json")
+  refused("nothing/study.json: must be a file with lines" run --zone deep --load 5
+    --choices "${input}/nothing/study.json")
+  refused("zeros/study.json:1 = a NUL byte: must be text" run --zone deep --load 5
+    --choices "${input}/zeros/study.json")
   refused("must be a file that can be read" run --zone deep --load 5 --choices "${input}/zeros")
   refused("nothing/study.json: is not a study" study merge "${input}/nothing")
   refused("zeros/study.json: is not a study" study merge "${input}/zeros")
@@ -126,11 +130,13 @@ if(CASE STREQUAL "refusals")
   # A full disk at stdout is an error; a closed pipe is none.
   find_program(sh sh)
   if(EXISTS /dev/full)
-    execute_process(COMMAND "${sh}" -c "'${PROGRAM}' run --help >/dev/full" WORKING_DIRECTORY "${SCRATCH}" RESULT_VARIABLE result ERROR_VARIABLE err)
+    execute_process(COMMAND "${sh}" -c "'${PROGRAM}' run --help >/dev/full" WORKING_DIRECTORY "${SCRATCH}"
+      RESULT_VARIABLE result ERROR_VARIABLE err)
     if(NOT result EQUAL 1 OR NOT err MATCHES "^cartilage: cannot write to the standard output: [^\n]+\n$")
       message(FATAL_ERROR "a full disk at stdout: status ${result}, ${err}")
     endif()
-    execute_process(COMMAND "${sh}" -c "('${PROGRAM}' run --help; echo $? >&2) | :" WORKING_DIRECTORY "${SCRATCH}" ERROR_VARIABLE err)
+    execute_process(COMMAND "${sh}" -c "('${PROGRAM}' run --help; echo $? >&2) | :" WORKING_DIRECTORY "${SCRATCH}"
+      ERROR_VARIABLE err)
     if(NOT err MATCHES "^(0|141)\n$")
       message(FATAL_ERROR "a closed pipe at stdout: ${err}")
     endif()
@@ -224,11 +230,13 @@ elseif(CASE STREQUAL "no_overwrite")
 elseif(CASE STREQUAL "owner")
   # One run owns the directory. After it was killed another run may use it; the earlier results are still there.
   find_program(sh sh)
-  execute_process(COMMAND "${sh}" -c "'${PROGRAM}' run --zone deep --load 5 --length 84 --height 42 --duration 1000000 --quiet --out result & \
+  execute_process(COMMAND "${sh}"
+    -c "'${PROGRAM}' run --zone deep --load 5 --length 84 --height 42 --duration 1000000 --quiet --out result & \
 while ! test -e result/cracks.csv; do sleep 0.05; done; \
 '${PROGRAM}' pack --zone deep --length 84 --height 42 --quiet --out result; echo status $? process $!; kill -KILL $!; wait $!"
     WORKING_DIRECTORY "${SCRATCH}" OUTPUT_VARIABLE out ERROR_VARIABLE err)
-  if(NOT out MATCHES "status 2 process ([0-9]+)" OR NOT err MATCHES "--out = .result.: [^\n]*in use by process ${CMAKE_MATCH_1}")
+  if(NOT out MATCHES "status 2 process ([0-9]+)" OR NOT err
+    MATCHES "--out = .result.: [^\n]*in use by process ${CMAKE_MATCH_1}")
     message(FATAL_ERROR "the second was not refused: ${out}${err}")
   endif()
   files(result cracks.csv lacuna.lock)
@@ -240,7 +248,8 @@ while ! test -e result/cracks.csv; do sleep 0.05; done; \
   call(0 sensitivity --zones surface --seeds 1 --quick --only fill ${small} --dry --duration 0.2 --quiet --out varied)
   file(GLOB before RELATIVE "${SCRATCH}/varied" "${SCRATCH}/varied/*.png")
   call(2 sensitivity --zones deep --seeds 1 --quick --only fill ${small} --dry --duration 0.2 --quiet --out varied)
-  call(0 sensitivity --zones deep --seeds 1 --quick --only fill ${small} --dry --duration 0.2 --quiet --out varied --force)
+  call(0 sensitivity --zones deep --seeds 1 --quick --only fill ${small} --dry --duration 0.2 --quiet --out varied
+    --force)
   file(GLOB after RELATIVE "${SCRATCH}/varied" "${SCRATCH}/varied/sensitivity-surface*")
   expect("before AND NOT after AND NOT EXISTS \"${SCRATCH}/varied/unfinished-sensitivity.json\"")
 
@@ -251,11 +260,12 @@ elseif(CASE STREQUAL "interrupted")
     return()
   endif()
   foreach(signal IN ITEMS INT TERM)
-    # Without --foreground the signal comes twice, and the second one ends the program at once. On a slow machine it may come
-    # during the packing; then the next, longer time is tried.
+    # Without --foreground the signal comes twice, and the second one ends the program at once. On a slow machine it may
+    # come during the packing; then the next, longer time is tried.
     foreach(seconds IN ITEMS 4 20 100)
       execute_process(
-        COMMAND "${timeout}" --foreground --preserve-status -s ${signal} ${seconds} "${PROGRAM}" run --zone surface --load 5 ${small}
+        COMMAND "${timeout}" --foreground --preserve-status -s ${signal} ${seconds} "${PROGRAM}" run --zone surface
+        --load 5 ${small}
           --duration 1000000 --out ${signal}
         WORKING_DIRECTORY "${SCRATCH}" RESULT_VARIABLE result OUTPUT_VARIABLE out ERROR_VARIABLE err)
       if(EXISTS "${SCRATCH}/${signal}/summary.json")

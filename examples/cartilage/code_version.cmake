@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 #
 # cmake -D ROOT=... -D OUT=... -D BUILD=... -D DRAWING=... -P code_version.cmake
-# Writes a header with a hash of everything that determines a run's results: the library's headers, the program's sources,
-# the compiler and its flags. DRAWING lists sources that only draw or choose, by their paths in examples/cartilage. The hash
-# does not depend on the location of the repository.
+# Writes a header with a hash of everything that determines a run's results: the library's headers, the program's
+# sources, the compiler and its flags. DRAWING lists sources that only draw or choose, by their paths in
+# examples/cartilage. The hash does not depend on the location of the repository.
 
 cmake_minimum_required(VERSION 3.25)
 

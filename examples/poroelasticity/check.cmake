@@ -77,11 +77,13 @@ if(CASE STREQUAL "refusals")
   # A full disk at stdout is an error; a closed pipe is not.
   find_program(sh sh)
   if(EXISTS /dev/full)
-    execute_process(COMMAND "${sh}" -c "'${PROGRAM}' --case darcy --quick --json --out full >/dev/full" WORKING_DIRECTORY "${SCRATCH}" RESULT_VARIABLE result ERROR_VARIABLE err)
+    execute_process(COMMAND "${sh}" -c "'${PROGRAM}' --case darcy --quick --json --out full >/dev/full"
+      WORKING_DIRECTORY "${SCRATCH}" RESULT_VARIABLE result ERROR_VARIABLE err)
     if(NOT result EQUAL 1 OR NOT err MATCHES "^poroelasticity: cannot write to the standard output: [^\n]+\n$")
       message(FATAL_ERROR "a full disk at stdout: status ${result}, ${err}")
     endif()
-    execute_process(COMMAND "${sh}" -c "('${PROGRAM}' --case darcy --quick --json --out pipe; echo $? >&2) | :" WORKING_DIRECTORY "${SCRATCH}" ERROR_VARIABLE err)
+    execute_process(COMMAND "${sh}" -c "('${PROGRAM}' --case darcy --quick --json --out pipe; echo $? >&2) | :"
+      WORKING_DIRECTORY "${SCRATCH}" ERROR_VARIABLE err)
     if(NOT err MATCHES "^(0|141)\n$")
       message(FATAL_ERROR "a closed pipe at stdout: ${err}")
     endif()
@@ -143,11 +145,13 @@ kill -TERM $!; wait $!; echo first $?"
       message(FATAL_ERROR "${case}: ${text}${lines}")
     endif()
   endforeach()
-  files(out cryer-stopped.json cryer.csv darcy-stopped.json darcy.csv mandel-stopped.json mandel.csv terzaghi-stopped.json
+  files(out cryer-stopped.json cryer.csv darcy-stopped.json darcy.csv mandel-stopped.json mandel.csv
+    terzaghi-stopped.json
     terzaghi.csv)
   # --force replaces only the files of its case.
   call(0 --case darcy --quick --out out --force)
-  files(out cryer-stopped.json cryer.csv darcy.csv darcy.png mandel-stopped.json mandel.csv terzaghi-stopped.json terzaghi.csv)
+  files(out cryer-stopped.json cryer.csv darcy.csv darcy.png mandel-stopped.json mandel.csv terzaghi-stopped.json
+    terzaghi.csv)
 
 elseif(CASE STREQUAL "terzaghi")
   call(0 --case terzaghi --json)

@@ -64,7 +64,8 @@ if(CASE STREQUAL "refusals")
   refused("--seed = 1.5: must be a whole number" --seed 1.5)
   refused("--steps = 1e300: must be a whole number from 1000 to 100000000" --steps 1e300)
   call(0 --help)
-  foreach(text IN ITEMS "--width NUMBER" "of the specimen, m (0.04)" "Pa (1e+10)" "random or lattice" "1 a file could not be written")
+  foreach(text IN ITEMS "--width NUMBER" "of the specimen, m (0.04)" "Pa (1e+10)" "random or lattice"
+    "1 a file could not be written")
     string(FIND "${out}" "${text}" place)
     if(place EQUAL -1)
       message(FATAL_ERROR "--help lacks '${text}':\n${out}")
@@ -74,11 +75,13 @@ if(CASE STREQUAL "refusals")
   # A full disk at stdout is an error; a closed pipe is not.
   find_program(sh sh)
   if(EXISTS /dev/full)
-    execute_process(COMMAND "${sh}" -c "'${PROGRAM}' --help >/dev/full" WORKING_DIRECTORY "${SCRATCH}" RESULT_VARIABLE result ERROR_VARIABLE err)
+    execute_process(COMMAND "${sh}" -c "'${PROGRAM}' --help >/dev/full" WORKING_DIRECTORY "${SCRATCH}"
+      RESULT_VARIABLE result ERROR_VARIABLE err)
     if(NOT result EQUAL 1 OR NOT err MATCHES "^uniaxial: cannot write to the standard output: [^\n]+\n$")
       message(FATAL_ERROR "a full disk at stdout: status ${result}, ${err}")
     endif()
-    execute_process(COMMAND "${sh}" -c "('${PROGRAM}' --help; echo $? >&2) | :" WORKING_DIRECTORY "${SCRATCH}" ERROR_VARIABLE err)
+    execute_process(COMMAND "${sh}" -c "('${PROGRAM}' --help; echo $? >&2) | :" WORKING_DIRECTORY "${SCRATCH}"
+      ERROR_VARIABLE err)
     if(NOT err MATCHES "^(0|141)\n$")
       message(FATAL_ERROR "a closed pipe at stdout: ${err}")
     endif()
@@ -116,7 +119,8 @@ elseif(CASE STREQUAL "files")
   files(second notes uniaxial.csv uniaxial.json uniaxial.png uniaxial.svg)
   # Stopped by a signal, with whole files: the rows so far are the beginning of the whole curve.
   find_program(sh sh)
-  execute_process(COMMAND "${sh}" -c "'${PROGRAM}' --width 0.012 --height 0.024 --radius 6e-4 --steps 100000000 --out stopped & \
+  execute_process(COMMAND "${sh}"
+    -c "'${PROGRAM}' --width 0.012 --height 0.024 --radius 6e-4 --steps 100000000 --out stopped & \
 while ! test -s stopped/uniaxial.csv; do sleep 0.05; done; '${PROGRAM}' --out stopped; echo second $?; kill -TERM $!; wait $!; echo first $?"
     WORKING_DIRECTORY "${SCRATCH}" OUTPUT_VARIABLE out ERROR_VARIABLE err)
   if(NOT out MATCHES "second 2\n" OR NOT out MATCHES "first 143\n" OR NOT err MATCHES "in use by process")

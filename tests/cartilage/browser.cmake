@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 #
 # cmake -D WRITER=... -D CHROMIUM=... -D SCRATCH=... [-D REPORT=page.html] -P browser.cmake
-# Opens the report in headless Chromium at 1280 and 390 pixels and measures it. Then does the same with a page that has each
-# fault that the script looks for, and checks that it finds them.
+# Opens the report in headless Chromium at 1280 and 390 pixels and measures it. Then does the same with a page that has
+# each fault that the script looks for, and checks that it finds them.
 
 cmake_minimum_required(VERSION 3.25)
 

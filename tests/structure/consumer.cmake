@@ -27,7 +27,8 @@ endforeach()
 
 # compile(<result> <text> arguments...): sets the compiler's exit status and its output.
 function(compile result text)
-  execute_process(COMMAND "${COMPILER}" ${folders} ${ARGN} RESULT_VARIABLE found ERROR_VARIABLE said OUTPUT_VARIABLE out)
+  execute_process(COMMAND "${COMPILER}" ${folders} ${ARGN} RESULT_VARIABLE found ERROR_VARIABLE said
+    OUTPUT_VARIABLE out)
   set(${result} "${found}" PARENT_SCOPE)
   set(${text} "${said}${out}" PARENT_SCOPE)
 endfunction()
@@ -56,7 +57,8 @@ typedef double eight __attribute__((vector_size(64)));
 eight twice(eight x) { return x + x; }
 int uninitialized(int n) { int x; for (int i = 0; i < n; ++i) x = i; return x; }
 ")
-  compile(result said -std=c++20 -O2 -Wall -Wpsabi -Wmaybe-uninitialized -c -o "${SCRATCH}/pragmas.o" "${SCRATCH}/pragmas.cpp")
+  compile(result said -std=c++20 -O2 -Wall -Wpsabi -Wmaybe-uninitialized -c -o "${SCRATCH}/pragmas.o"
+    "${SCRATCH}/pragmas.cpp")
   foreach(warning IN ITEMS "psabi" "uninitialized")
     if(NOT said MATCHES "pragmas\\.cpp[^\n]*-W[a-z-]*${warning}")
       message(FATAL_ERROR "a header turns -W${warning} off for its consumer:\n${said}")

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# cmake -D TIDY=<clang-tidy> -D HEADERS=<list> -D INCLUDE=<include/> -D SYSTEM_DIRS=<list> -D SCRATCH=<folder> -P function_size.cmake:
-# no function of a header has more than 60 lines, as clang-tidy's readability-function-size counts them.
+# cmake -D TIDY=<clang-tidy> -D HEADERS=<list> -D INCLUDE=<include/> -D SYSTEM_DIRS=<list> -D SCRATCH=<folder> -P
+# function_size.cmake: no function of a header has more than 60 lines, as clang-tidy's readability-function-size counts
+# them.
 
 cmake_minimum_required(VERSION 3.25)
 

@@ -14,7 +14,8 @@ foreach(folder IN LISTS INCLUDE_DIRS)
 endforeach()
 
 function(compile source architecture object)
-  execute_process(COMMAND ${command} "-march=${architecture}" -c "${CMAKE_CURRENT_LIST_DIR}/mixed_widths/${source}" -o "${SCRATCH}/${object}"
+  execute_process(COMMAND ${command} "-march=${architecture}" -c "${CMAKE_CURRENT_LIST_DIR}/mixed_widths/${source}"
+    -o "${SCRATCH}/${object}"
     RESULT_VARIABLE failed ERROR_VARIABLE said)
   if(failed)
     message(FATAL_ERROR "${source} should compile for ${architecture}:\n${said}")
@@ -22,7 +23,8 @@ function(compile source architecture object)
 endfunction()
 function(link result said)
   list(TRANSFORM ARGN PREPEND "${SCRATCH}/")
-  execute_process(COMMAND "${COMPILER}" ${ARGN} -o "${SCRATCH}/program" RESULT_VARIABLE failed ERROR_VARIABLE error OUTPUT_VARIABLE out)
+  execute_process(COMMAND "${COMPILER}" ${ARGN} -o "${SCRATCH}/program" RESULT_VARIABLE failed ERROR_VARIABLE error
+    OUTPUT_VARIABLE out)
   set(${result} "${failed}" PARENT_SCOPE)
   set(${said} "${error}${out}" PARENT_SCOPE)
 endfunction()

@@ -28,7 +28,8 @@ set(pores/remesh_MAY pores/mesh pores/network)
 
 # Folders of a program, from the ground up: a file includes its own folder and those before it. Files beside the folders
 # may include all.
-set(PROGRAM_FOLDERS cartilage/common cartilage/specimen cartilage/run cartilage/study cartilage/report cartilage/calibrate)
+set(PROGRAM_FOLDERS cartilage/common cartilage/specimen cartilage/run cartilage/study cartilage/report
+  cartilage/calibrate)
 
 # Third-party headers and the rooms that may include them.
 set(THIRD_PARTY eigen nanoflann qhull cairo cereal zlib intrinsics programs)
@@ -50,8 +51,8 @@ set(programs_HEADERS "^(CLI|toml\\+\\+|nlohmann|catch2|benchmark)/")
 set(programs_ROOMS "")
 
 set(FORBIDDEN_STANDARD "^(iostream|ranges|functional|regex)$")
-# Functions that read or write numbers by the program's locale. core/text.hpp reads and writes numbers in files; programs
-# may print tables for people.
+# Functions that read or write numbers by the program's locale. core/text.hpp reads and writes numbers in files;
+# programs may print tables for people.
 set(OF_LOCALES "(strto(f|d|ld)|sto(f|d|ld)|atof|setlocale|localeconv|imbue|setprecision)[ ]*\\(|stringstream|[^f]printf\\([^;]*%[-+ #0-9.*]*L?[aefgAEFG]")
 
 # Exceptions: "<header> -> <included header>" or "<header> numbers", each with its reason above it.
@@ -96,7 +97,8 @@ foreach(header IN LISTS headers)
     list(APPEND problems "${header}: no #pragma once")
   endif()
   if(text MATCHES "${OF_LOCALES}|fprintf\\([^;]*%[-+ #0-9.*]*L?[aefgAEFG]")
-    problem("${header} numbers" "${header}: '${CMAKE_MATCH_0}' goes by the locale, core/text.hpp reads and writes numbers")
+    problem("${header} numbers"
+      "${header}: '${CMAKE_MATCH_0}' goes by the locale, core/text.hpp reads and writes numbers")
   endif()
   set(folder "")
   if(header MATCHES "^([^/]+/[^/]+)/")
@@ -137,7 +139,8 @@ foreach(header IN LISTS headers)
     elseif(name MATCHES "^lacuna/(.*)$")
       list(APPEND inner_${header} "${CMAKE_MATCH_1}")
       if(room)
-        problem("${header} -> ${CMAKE_MATCH_1}" "${header}: a room may not include ${CMAKE_MATCH_1}, which knows all rooms")
+        problem("${header} -> ${CMAKE_MATCH_1}"
+          "${header}: a room may not include ${CMAKE_MATCH_1}, which knows all rooms")
       endif()
     elseif(name MATCHES "${FORBIDDEN_STANDARD}")
       problem("${header} -> ${name}" "${header}: <${name}> is not for headers")
@@ -157,7 +160,8 @@ foreach(program IN LISTS programs)
   # Plain printf writes to the terminal.
   string(REGEX REPLACE "std::printf\\(" "std::puts(" text "${text}")
   if(text MATCHES "${OF_LOCALES}")
-    problem("${program} numbers" "${program}: '${CMAKE_MATCH_0}' goes by the locale, core/text.hpp reads and writes numbers")
+    problem("${program} numbers"
+      "${program}: '${CMAKE_MATCH_0}' goes by the locale, core/text.hpp reads and writes numbers")
   endif()
   if(NOT program MATCHES "^examples/(cartilage/[^/]+)/")
     continue()

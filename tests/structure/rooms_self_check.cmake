@@ -70,16 +70,19 @@ file(WRITE "${SCRATCH}/licence/include/lacuna/core/a.hpp" "\n#pragma once\n")
 expect("${SCRATCH}/licence" "must name the licence")
 file(WRITE "${SCRATCH}/once/include/lacuna/core/a.hpp" "// SPDX-License-Identifier: BSD-3-Clause\n")
 expect("${SCRATCH}/once" "no #pragma once")
-foreach(call IN ITEMS "std::strtod(x, nullptr)" "std::stof(word)" "std::snprintf(b, sizeof b, \"%.3g\", x)" "std::stringstream s")
+foreach(call IN ITEMS "std::strtod(x, nullptr)" "std::stof(word)" "std::snprintf(b, sizeof b, \"%.3g\", x)"
+  "std::stringstream s")
   math(EXPR number "${number} + 1")
-  file(WRITE "${SCRATCH}/${number}/include/lacuna/core/a.hpp" "// SPDX-License-Identifier: BSD-3-Clause\n#pragma once\n// ${call}\n")
+  file(WRITE "${SCRATCH}/${number}/include/lacuna/core/a.hpp"
+    "// SPDX-License-Identifier: BSD-3-Clause\n#pragma once\n// ${call}\n")
   expect("${SCRATCH}/${number}" "core/a.hpp: '")
   write_header("${SCRATCH}/${number}" core/a.hpp)
   file(WRITE "${SCRATCH}/${number}/examples/a/a.cpp" "${call}\n")
   expect("${SCRATCH}/${number}" "examples/a/a.cpp: '")
 endforeach()
 write_header("${SCRATCH}/whole" core/a.hpp)
-file(WRITE "${SCRATCH}/whole/examples/a/a.cpp" "std::snprintf(b, sizeof b, \"%012lld%s\", n, e);\nstd::printf(\"%.3g\", x);\n")
+file(WRITE "${SCRATCH}/whole/examples/a/a.cpp"
+  "std::snprintf(b, sizeof b, \"%012lld%s\", n, e);\nstd::printf(\"%.3g\", x);\n")
 expect("${SCRATCH}/whole" "1 headers keep the rules")
 
 # try_program(<source> <what it includes> <text expected>)
