@@ -321,6 +321,7 @@ public:
     }
 
 private:
+    friend class lacuna::equilibrium<Model>; // moves the same state
     using particle_access<simulation, real, dim>::internal;
 
     /// Up to the first step the length of the step is determined again, so that late settings have an effect.

@@ -86,6 +86,11 @@ public:
         rebuild_tables(store, false);
         return true;
     }
+    /// Searches for contact candidates now, wherever the particles were before, and replaces failed bonds by contacts.
+    void search_again(store_type const& store) {
+        if (has_contacts()) neighbors_.build_for_motion(store.positions(), store.radii());
+        rebuild_tables(store, false);
+    }
     /// Adds the largest displacement of a chunk's particles in a step, m. Call it after each step for each chunk.
     void add_path(int chunk, Real path) noexcept {
         if (has_contacts()) neighbors_.add_path(std::size_t(chunk), path);

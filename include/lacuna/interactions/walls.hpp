@@ -109,20 +109,9 @@ public:
         energy = {};
         for (auto& n : near_) {
             auto const i = load_particle(store, n.particle);
-            vec<Real, Dim> normal{};
-            for (int axis = 0; axis < Dim; ++axis) normal[axis] = Real(walls_[n.plane].normal[axis]);
             Real const distance = height(i.position, n.plane);
             if (!(distance > 0)) beyond = std::int32_t(n.particle);
-            auto const wall_velocity = convert<Real>(motion_[n.plane].velocity);
-            auto const velocity = i.velocity - wall_velocity;
-            body<Real, Dim> const j{i.position - normal * distance, wall_velocity, {}, Real(0), i.mass};
-            // The foot point follows the particle along the wall, so the pair never rotates: the slip is the motion of
-            // the particle relative to the plane.
-            auto frame = relative_motion(i, j, time_step);
-            frame.normal = -normal;
-            frame.motion.distance = distance;
-            frame.motion.normal_rate = dot(normal, velocity);
-            frame.motion.slip = slip(velocity, i.spin, normal, distance, time_step);
+            auto frame = frame_at(n.plane, i, convert<Real>(motion_[n.plane].velocity), distance, time_step);
             rotate_history(n.state, frame, i.spin, time_step);
             auto const& law = row_of(store, n);
             if constexpr (stiffens<ContactLaw, Dim>)
@@ -161,6 +150,23 @@ public:
             }
         }
         return beyond;
+    }
+
+    /// Calls visit(number of the wall, internal index, history) for the listed particles: those that touch a wall or may
+    /// soon.
+    template <class Visit>
+    void for_each_listed(Visit const& visit) const {
+        for (auto const& n : near_) visit(n.plane, n.particle, n.state);
+    }
+    /// Frame of a particle and a wall that has moved further than its present position says.
+    /// \param moved displacement of the wall, m
+    /// \param velocity of the wall, m/s
+    pair_frame<Real, Dim> frame(std::size_t w, body<Real, Dim> const& particle, vec<double, Dim> const& moved,
+                                vec<double, Dim> const& velocity, Real time_step) const {
+        Real const distance = height(particle.position, w) - Real(dot(moved, walls_[w].normal));
+        auto found = frame_at(w, particle, convert<Real>(velocity), distance, time_step);
+        turn_frame(found, particle.spin, time_step);
+        return found;
     }
 
     /// Force of the particles on a wall in the last evaluation, N.
@@ -305,14 +311,36 @@ private:
             if (-overlap <= assumed.gap) use(n, double(still.radius_i), distance, overlap);
         }
     }
-    /// Rotates the history of a contact in 3D about the normal by the mean spin of particle and wall. The wall has no
-    /// spin, and the normal does not change.
+    /// Frame of a particle and its foot point on a wall. The foot point follows the particle along the wall, so the pair
+    /// never rotates: the slip is the motion of the particle relative to the plane.
+    pair_frame<Real, Dim> frame_at(std::size_t w, body<Real, Dim> const& i, vec<Real, Dim> const& wall_velocity,
+                                   Real distance, Real time_step) const {
+        vec<Real, Dim> normal{};
+        for (int axis = 0; axis < Dim; ++axis) normal[axis] = Real(walls_[w].normal[axis]);
+        auto const velocity = i.velocity - wall_velocity;
+        body<Real, Dim> const j{i.position - normal * distance, wall_velocity, {}, Real(0), i.mass};
+        auto frame = relative_motion(i, j, time_step);
+        frame.normal = -normal;
+        frame.motion.distance = distance;
+        frame.motion.normal_rate = dot(normal, velocity);
+        frame.motion.slip = slip(velocity, i.spin, normal, distance, time_step);
+        return frame;
+    }
+    /// The turn of a frame in 3D about its normal: the mean spin of particle and wall. The wall has no spin, and the
+    /// normal does not change.
+    static void turn_frame([[maybe_unused]] pair_frame<Real, Dim>& frame,
+                           [[maybe_unused]] vec<Real, rotation_dim<Dim>> const& spin, [[maybe_unused]] Real time_step) {
+        if constexpr (Dim == 3) {
+            frame.previous_normal = frame.normal;
+            frame.twist = Real(0.5) * dot(spin, frame.normal) * time_step;
+        }
+    }
+    /// Rotates the history of a contact in 3D with its frame.
     static void rotate_history([[maybe_unused]] history_of<Real>& state, [[maybe_unused]] pair_frame<Real, Dim>& frame,
                                [[maybe_unused]] vec<Real, rotation_dim<Dim>> const& spin,
                                [[maybe_unused]] Real time_step) {
         if constexpr (Dim == 3) {
-            frame.previous_normal = frame.normal;
-            frame.twist = Real(0.5) * dot(spin, frame.normal) * time_step;
+            turn_frame(frame, spin, time_step);
             lacuna::rotate_history<ContactLaw>(state, frame);
         }
     }

@@ -25,6 +25,13 @@ template <class Real, int Dim>
 class rigid_plates {
 public:
     bool empty() const noexcept { return axis_.empty(); }
+    std::size_t size() const noexcept { return axis_.size(); }
+    int axis(std::size_t plate) const noexcept { return axis_[plate]; } ///< along which its particles move as one
+    /// Internal indices of a plate's particles, sorted.
+    std::span<std::uint32_t const> members(std::size_t plate) const noexcept {
+        std::size_t const first = plate == 0 ? 0 : end_[plate - 1];
+        return std::span(particles_).subspan(first, end_[plate] - first);
+    }
 
     /// Adds a plate.
     /// \param particles internal indices
@@ -100,11 +107,6 @@ public:
     }
 
 private:
-    std::span<std::uint32_t const> members(std::size_t plate) const noexcept {
-        std::size_t const first = plate == 0 ? 0 : end_[plate - 1];
-        return std::span(particles_).subspan(first, end_[plate] - first);
-    }
-
     std::vector<int> axis_;            // of each plate
     std::vector<std::uint32_t> end_;   // end of each plate's particles in particles_
     std::vector<std::uint32_t> particles_;

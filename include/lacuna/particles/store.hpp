@@ -178,6 +178,16 @@ public:
         else
             set_head(surface_speed_, k, w * radius_[k]);
     }
+    /// Moves a particle as one step of one second at this velocity and spin would.
+    void displace(std::size_t k, point const& shift, rotation const& turn) noexcept {
+        set_velocity(k, shift);
+        set_spin(k, turn);
+        set_position(k, position(k) + shift);
+        if constexpr (Dim == 2)
+            body_.at(k, 2) += turn[0] * radius_[k];
+        else
+            rotate_orientation(k, turn);
+    }
     void set_applied_force(std::size_t k, point const& force) { set_head(load_, load_index(k), force); }
     void set_applied_torque(std::size_t k, Real torque)
         requires(Dim == 2)
@@ -260,6 +270,16 @@ public:
     static constexpr std::size_t load_block = 128;
 
 private:
+    /// 3D: turns a particle's orientation by a rotation vector, rad.
+    void rotate_orientation(std::size_t k, rotation const& turn) noexcept {
+        Real const angle = norm(turn), half = angle / 2;
+        Real const scale = angle > Real(0) ? std::sin(half) / angle : Real(0.5);
+        vec<Real, 4> const q = orientation(k), r{std::cos(half), turn[0] * scale, turn[1] * scale, turn[2] * scale};
+        quaternion_.at(k, 0) = r[0] * q[0] - r[1] * q[1] - r[2] * q[2] - r[3] * q[3];
+        quaternion_.at(k, 1) = r[0] * q[1] + r[1] * q[0] + r[2] * q[3] - r[3] * q[2];
+        quaternion_.at(k, 2) = r[0] * q[2] - r[1] * q[3] + r[2] * q[0] + r[3] * q[1];
+        quaternion_.at(k, 3) = r[0] * q[3] + r[1] * q[2] - r[2] * q[1] + r[3] * q[0];
+    }
     static constexpr std::size_t padding_particles = 2;
     /// Bits of free_: the axes, then the rotation.
     static constexpr unsigned rotation_bit = 1u << Dim, free_patterns = 2u << Dim;

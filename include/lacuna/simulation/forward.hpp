@@ -4,7 +4,7 @@
 #include <lacuna/core/pack.hpp>
 
 /// \file
-/// Declares lacuna::simulation, for headers that only name it. Do not declare it by hand: LACUNA_BEGIN_PACKS
+/// Declares lacuna::simulation and lacuna::equilibrium, for headers that only name it. Do not declare it by hand: LACUNA_BEGIN_PACKS
 /// opens an inner namespace, so that a declaration without it names a different class.
 
 namespace lacuna {
@@ -12,6 +12,8 @@ namespace lacuna {
 LACUNA_BEGIN_PACKS
 template <class Model>
 class simulation;
+template <class Model>
+class equilibrium;
 LACUNA_END_PACKS
 
 } // namespace lacuna

@@ -22,6 +22,7 @@
 #include <lacuna/pores/flow/source_exchange.hpp>
 #include <lacuna/pores/network/pore_network.hpp>
 #include <lacuna/pores/flow/pore_pass.hpp>
+#include <lacuna/pores/flow/sealed_pressure.hpp>
 #include <lacuna/pores/flow/throat_pass.hpp>
 #include <lacuna/pores/flow/tractions.hpp>
 
@@ -126,6 +127,39 @@ public:
     std::array<vec<Real, Dim>, std::size_t(Dim) + 1> pore_tractions(std::size_t pore, points_view<Real, Dim> points,
                                                                     Real const* radii) const noexcept {
         return lacuna::pore_tractions(network_, thickness_, pore, points, radii);
+    }
+
+    /// A pore at the given positions.
+    struct pore_at {
+        Real volume; ///< m^3; not less than the least volume
+        bool open;   ///< above its least volume; else it exerts no forces
+        std::array<vec<Real, Dim>, std::size_t(Dim) + 1> traction; ///< forces on its corners for 1 Pa, N
+    };
+    /// Volume of a pore, and its tractions, at other positions than those of the last step.
+    pore_at pore_geometry(std::size_t pore, points_view<Real, Dim> points, Real const* radii) const noexcept {
+        auto const shape = measure_corners(network_, pore, points, radii);
+        pore_at at{void_of(shape) * thickness_, true, {}};
+        Real const least = Real(parameters_.minimum_volume_fraction) * thickness_ * network_.size[pore];
+        at.open = at.volume > least;
+        at.volume = std::max(at.volume, least);
+        for (std::size_t c = 0; c < at.traction.size(); ++c) at.traction[c] = shape.traction[c] * thickness_;
+        return at;
+    }
+    /// Moves the pores to new positions without flow: the pressures follow the volumes exactly (sealed_pressure()), or
+    /// stay while fluid enters and leaves from outside.
+    /// \param sealed whether pressures follow the volumes
+    void settle_pores(points_view<Real, Dim> points, Real const* radii, bool sealed) {
+        if (network_.bare()) return;
+        for (std::size_t p = 0; p < network_.pores(); ++p) {
+            Real const now = pore_geometry(p, points, radii).volume;
+            if (sealed) {
+                auto const filled = sealed_pressure(parameters_, double(network_.pressure[p]), double(network_.old_volume[p]),
+                                                    double(network_.vapour_of(p)), double(now));
+                network_.pressure[p] = Real(filled.pressure);
+                if (!network_.vapour.empty()) network_.vapour[p] = Real(filled.vapour);
+            }
+            network_.volume[p] = network_.old_volume[p] = now;
+        }
     }
 
     /// Energy stored in the compressed fluid, sum of V p^2 / 2 K_f, J.

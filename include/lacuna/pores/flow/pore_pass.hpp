@@ -77,7 +77,7 @@ public:
         for (std::size_t p = first; p < end; ++p) {
             std::size_t const slot = p * width;
             auto shape = measure_pack(net, particles, slot);
-            lanes free_volume = volume_of(shape) * thickness, floor = lanes::load(net.size.data() + slot) * share;
+            lanes free_volume = void_of(shape) * thickness, floor = lanes::load(net.size.data() + slot) * share;
             lanes exerts = select(free_volume > floor, thickness, zero);
             max(free_volume, floor).store(net.volume.data() + slot);
             store_forces(exerted.of_pack(p), shape, exerts);
@@ -144,7 +144,7 @@ public:
                     prefetch_records<width>(particles, net.corner[corners - 1].data() + slot + ahead * width,
                                          particle_column<Real>::stride);
                 shape = measure_pack(net, particles, slot);
-                lanes free_volume = volume_of(shape) * thickness, floor = lanes::load(net.size.data() + slot) * share;
+                lanes free_volume = void_of(shape) * thickness, floor = lanes::load(net.size.data() + slot) * share;
                 volume = max(free_volume, floor);
                 exerts = select(free_volume > floor, thickness, zero);
                 volume.store(net.volume.data() + slot);
@@ -196,14 +196,6 @@ private:
     template <class T>
     using shape_of = std::conditional_t<Dim == 2, pore_shape<T>, tetrahedron_shape<T>>;
 
-    template <class T>
-    static T const& volume_of(pore_shape<T> const& shape) noexcept {
-        return shape.void_area;
-    }
-    template <class T>
-    static T const& volume_of(tetrahedron_shape<T> const& shape) noexcept {
-        return shape.void_volume;
-    }
     [[gnu::always_inline]] static auto measure_pack(pore_network<Real, Dim> const& net, Real const* particles,
                                                     std::size_t slot) noexcept {
         using lanes = pack<Real, width>;

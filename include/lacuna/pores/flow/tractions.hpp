@@ -11,23 +11,32 @@
 
 namespace lacuna {
 
-/// Forces on the corners of a pore per pressure of 1 Pa, N: the derivatives of its volume by the positions of the
-/// corners, while the volume is above its least value. Displacements u of the corners change the pressure by
-/// -K_f / V_p sum(force . u).
-/// \param net not bare; \param thickness m, 1 in space; \param points centres, m; \param radii m
+/// Void and tractions of a pore at the given positions.
+/// \param net not bare; \param points centres, m; \param radii m
 template <class Real, int Dim>
-std::array<vec<Real, Dim>, std::size_t(Dim) + 1> pore_tractions(pore_network<Real, Dim> const& net, Real thickness,
-                                                                std::size_t pore, points_view<Real, Dim> points,
-                                                                Real const* radii) noexcept {
-    std::array<vec<Real, Dim>, std::size_t(Dim) + 1> x, force;
+auto measure_corners(pore_network<Real, Dim> const& net, std::size_t pore, points_view<Real, Dim> points,
+                     Real const* radii) noexcept {
+    std::array<vec<Real, Dim>, std::size_t(Dim) + 1> x;
     std::array<Real, std::size_t(Dim) + 1> r;
     for (std::size_t c = 0; c < x.size(); ++c) {
         auto const k = std::size_t(net.corner[c][pore]);
         x[c] = points[k];
         r[c] = radii[k];
     }
-    auto const shape = measure_simplex(x, r);
-    for (std::size_t c = 0; c < x.size(); ++c) force[c] = shape.traction[c] * thickness;
+    return measure_simplex(x, r);
+}
+
+/// Forces on the corners of a pore per pressure of 1 Pa, N: the derivatives of its volume by the positions of the
+/// corners, while the volume is above its least value. Displacements u of the corners change the pressure by
+/// -K_f / V_p sum(force . u).
+/// \param thickness m, 1 in space
+template <class Real, int Dim>
+std::array<vec<Real, Dim>, std::size_t(Dim) + 1> pore_tractions(pore_network<Real, Dim> const& net, Real thickness,
+                                                                std::size_t pore, points_view<Real, Dim> points,
+                                                                Real const* radii) noexcept {
+    std::array<vec<Real, Dim>, std::size_t(Dim) + 1> force;
+    auto const shape = measure_corners(net, pore, points, radii);
+    for (std::size_t c = 0; c < force.size(); ++c) force[c] = shape.traction[c] * thickness;
     return force;
 }
 

@@ -232,6 +232,16 @@ tetrahedron_shape<T> measure_simplex(std::array<vec<T, 3>, 4> const& x, std::arr
 }
 /// \}
 
+/// Void of a pore from its shape: an area in the plane, m^2; a volume in space, m^3.
+template <class T>
+T const& void_of(pore_shape<T> const& shape) noexcept {
+    return shape.void_area;
+}
+template <class T>
+T const& void_of(tetrahedron_shape<T> const& shape) noexcept {
+    return shape.void_volume;
+}
+
 /// Volume of the tetrahedron less the four spherical sectors r^3 Omega / 3 in it, m^3. Negative where the spheres
 /// overlap too much to leave a void, and for an inverted tetrahedron. Not a number where two centres coincide.
 template <class T>

@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <lacuna/equilibrium/interior_point.hpp>
+#include <lacuna/equilibrium/parameters.hpp>
+#include <lacuna/equilibrium/system.hpp>
+#include <lacuna/simulation.hpp>
+
+namespace lacuna {
+
+LACUNA_BEGIN_PACKS
+/// Static equilibrium of a simulation: the state in which loads, pairs, walls and pressures balance, whatever the time
+/// that it takes. It works on the particles, bonds, contacts, pores and loads of the simulation: one may go from steps
+/// to an equilibrium and back at any time, and a checkpoint of the simulation holds both.
+///
+/// Loads and pressures are those that act at the time of the simulation, which does not advance. Velocities are set to
+/// zero. A bond that is too strongly loaded in the equilibrium fails.
+template <class Model>
+class equilibrium {
+public:
+    static_assert(std::is_same_v<typename Model::real, double>, "equilibrium: the model's real must be double");
+    static constexpr int dim = Model::dim;
+    using simulation_type = simulation<Model>;
+    using point = vec<double, dim>;
+    using event_type = break_event<dim>;
+
+    /// \param sim must outlive this object
+    /// \throws std::invalid_argument for a parameter out of range
+    explicit equilibrium(simulation_type& sim, equilibrium_parameters const& p = {})
+        : sim_(sim), s_(sim.state_), parameters_(p), system_(sim.state_) {
+        p.validate("equilibrium");
+    }
+
+    equilibrium_parameters const& settings() const noexcept { return parameters_; }
+
+    /// Displaces a particle in the next solve(), along axes along which it is fixed. A particle of a rigid plate takes
+    /// the plate with it.
+    /// \param displacement m
+    /// \throws std::invalid_argument for a displacement along an axis that is free
+    void move(std::size_t id, point const& displacement) {
+        auto const k = sim_.internal(id);
+        given_.resize(s_.store.size() * std::size_t(per_particle), 0.0);
+        unknowns<dim> const numbers(s_.store, s_.plates);
+        for (int axis = 0; axis < dim; ++axis) {
+            require_finite("displacement of particle " + std::to_string(id), displacement[axis]);
+            if (displacement[axis] == 0) continue;
+            if (numbers.of(k, axis) >= 0)
+                refuse("displacement of particle " + std::to_string(id), displacement[axis], "0 along an axis along which it is not fixed");
+            set_given(k, axis, displacement[axis]);
+        }
+    }
+    /// Displaces a wall in the next solve().
+    /// \param displacement m
+    void move_wall(std::size_t w, point const& displacement) {
+        require_in("wall", double(w), 0, double(s_.walls.size()) - 1);
+        for (int axis = 0; axis < dim; ++axis) require_finite("displacement of wall " + std::to_string(w), displacement[axis]);
+        wall_given_.resize(s_.walls.size());
+        wall_given_[w] = displacement;
+    }
+
+    /// Searches for the equilibrium under the present loads, from the present state, and moves the simulation there.
+    /// Bonds fail on the way; see events().
+    /// \throws std::logic_error for a model with fluid whose pores are not filled
+    equilibrium_result solve() {
+        begin();
+        equilibrium_result result;
+        events_.clear();
+        double regularisation = parameters_.regularisation;
+        int const factorised = system_.matrix().factorisations();
+        double const radius = median_radius(s_.store.radii());
+        double const longest = 0.25 * radius;
+        Eigen::VectorXd u, forces;
+        for (; result.solves < parameters_.solves; ++result.solves) {
+            double const share = begin_increment(0.2 * longest_motion());
+            auto scales = find_scales(longest);
+            scales.regularisation = regularisation * scales.stiffness;
+            if (!interior_point(system_, scales, parameters_).solve(u)) {
+                system_.restore();
+                regularisation *= 8;
+                if (regularisation > 1e6) break;
+                continue;
+            }
+            double const moved = system_.largest_motion(u);
+            double const part = std::min(1.0, longest_motion() / std::max(moved, 1e-300));
+            result.trials.push_back({regularisation, moved});
+            result.displacement += part * moved;
+            result.regularisation = result.trials.size() == 1 ? regularisation : std::min(result.regularisation, regularisation);
+            std::size_t const failures = commit(part);
+            result.broken += failures;
+            reduce_given(share * part);
+            if (share * part < 1 || failures > 0) continue;
+            begin_increment(0);
+            system_.exact_forces(Eigen::VectorXd::Zero(system_.count()), forces);
+            result.unbalanced = forces.size() > 0 ? forces.lpNorm<Eigen::Infinity>() : 0.0;
+            result.largest_force = system_.largest_force();
+            double const allowed = std::max(parameters_.tolerance * result.largest_force, 4 * scales.rounding);
+            if (result.unbalanced <= allowed) {
+                result.outcome = equilibrium_outcome::reached;
+                ++result.solves;
+                break;
+            }
+            if (result.displacement > parameters_.largest_motion * radius) {
+                result.outcome = equilibrium_outcome::mechanism;
+                break;
+            }
+            regularisation = std::max(regularisation / 10, parameters_.regularisation);
+        }
+        result.factorisations = system_.matrix().factorisations() - factorised;
+        end();
+        return result;
+    }
+
+    /// Bonds that failed in the last solve(), in order.
+    std::span<event_type const> events() const noexcept { return events_; }
+
+private:
+    static constexpr int per_particle = unknowns<dim>::per_particle;
+
+    void set_given(std::size_t k, int axis, double value) {
+        given_[k * std::size_t(per_particle) + std::size_t(axis)] = value;
+        for (std::size_t g = 0; g < s_.plates.size(); ++g) {
+            auto const members = s_.plates.members(g);
+            if (s_.plates.axis(g) != axis || !std::binary_search(members.begin(), members.end(), std::uint32_t(k))) continue;
+            for (auto const m : members) given_[m * std::size_t(per_particle) + std::size_t(axis)] = value;
+        }
+    }
+
+    /// Brings histories and lists up to date with the positions of the last step, and the particles to rest.
+    void begin() {
+        if constexpr (has_fluid<Model>)
+            if (!s_.filled()) throw std::logic_error("equilibrium: the model has a fluid but fill_pores() was not called");
+        s_.pairs.set_force_retention(s_.store, false, s_.settings.threads);
+        double const last = sim_.clock_.step() > 0 ? sim_.clock_.previous_step() : 0.0;
+        evaluate_pairs(last);
+        s_.walls.evaluate(s_.store, last, s_.settings.damping, s_.other_forces, s_.wall_energy);
+        take_failures();
+        stop_particles();
+        update_lists(true);
+    }
+    void end() {
+        system_.restore();
+        given_.clear();
+        wall_given_.clear();
+        s_.ledger.close();
+    }
+
+    /// \return share of the given displacements that this increment takes
+    double begin_increment(double longest) {
+        double most = 0;
+        for (double const g : given_) most = std::max(most, std::fabs(g));
+        for (auto const& w : wall_given_) most = std::max(most, norm(w));
+        double const share = most > longest ? longest / most : 1.0;
+        std::vector<double> part(given_);
+        std::vector<point> walls(wall_given_);
+        for (auto& g : part) g *= share;
+        for (auto& w : walls) w = w * share;
+        system_.begin(part, walls, parameters_.pores == pore_condition::drained);
+        return share;
+    }
+    void reduce_given(double share) {
+        for (auto& g : given_) g *= 1 - share;
+        for (auto& w : wall_given_) w = w * (1 - share);
+        if (share >= 1) {
+            given_.clear();
+            wall_given_.clear();
+        }
+    }
+
+    /// No two particles outside the candidates may meet within a solve.
+    double longest_motion() const { return 0.49 * std::min(s_.pairs.remaining(), s_.walls.remaining()); }
+
+    equilibrium_scales find_scales(double longest) const {
+        equilibrium_scales scales{1, 0, 0, longest, 0};
+        std::vector<double> stiffness;
+        double squares = 0;
+        std::size_t count = 0;
+        s_.pairs.for_each_pair_tangent(s_.store, contact_assumption{s_.pairs.remaining(), 1e-3}, [&](auto const& t) {
+            stiffness.push_back(t.normal_stiffness);
+            double const force = t.prestress * norm(s_.store.nearest(s_.store.position(t.j) - s_.store.position(t.i)));
+            squares += force * force;
+            count += force > 0;
+        });
+        s_.walls.for_each_stiffness(s_.store, contact_assumption{0, 1e-3}, [&](std::size_t, auto const&, double k, double, double) { stiffness.push_back(k); });
+        if (!stiffness.empty()) {
+            auto const middle = stiffness.begin() + std::ptrdiff_t(stiffness.size() / 2);
+            std::nth_element(stiffness.begin(), middle, stiffness.end());
+            scales.stiffness = *middle;
+        }
+        double const across = std::pow(double(s_.store.size()), dim == 2 ? 0.5 : 2.0 / 3);
+        scales.force = std::max({system_.total_load() / across, count > 0 ? std::sqrt(squares / double(count)) : 0.0,
+                                 0.1 * scales.stiffness * system_.largest_given()});
+        double extent = 0;
+        for (std::size_t k = 0; k < s_.store.size(); ++k)
+            for (int axis = 0; axis < dim; ++axis) extent = std::max(extent, std::fabs(s_.store.position(k)[axis]));
+        scales.rounding = 8 * std::numeric_limits<double>::epsilon() * extent * scales.stiffness;
+        return scales;
+    }
+
+    /// Moves the simulation by a part of the increment, by the exact laws.
+    /// \return number of bonds that failed
+    std::size_t commit(double part) {
+        system_.restore();
+        auto& store = s_.store;
+        double most = 0;
+        for (std::size_t k = 0; k < store.size(); ++k) {
+            point shift{};
+            vec<double, rotation_dim<dim>> spin{};
+            for (int axis = 0; axis < dim; ++axis) shift[axis] = part * system_.motion(k, axis);
+            for (int r = 0; r < rotation_dim<dim>; ++r) spin[r] = part * system_.motion(k, dim + r) / store.radius(k);
+            most = std::max(most, norm(shift));
+            store.displace(k, shift, spin);
+        }
+        for (std::size_t w = 0; w < s_.walls.size(); ++w) s_.walls.set_velocity(w, system_.wall_motion()[w] * part);
+        if (s_.walls.size() > 0) s_.walls.advance(1.0);
+        for (int c = 0; c < s_.pairs.chunks(); ++c) s_.pairs.add_path(c, most);
+        for (std::size_t b = 0; b * s_.walls.block_particles < store.size(); ++b) s_.walls.add_path(b, most);
+        evaluate_pairs(1.0);
+        s_.walls.evaluate(store, 1.0, s_.settings.damping, s_.other_forces, s_.wall_energy);
+        if constexpr (has_fluid<Model>)
+            s_.fluid.get()->settle_pores(store.positions(), store.radii().data(), parameters_.pores == pore_condition::sealed);
+        std::size_t const failures = take_failures();
+        stop_particles();
+        update_lists(failures > 0);
+        return failures;
+    }
+    void evaluate_pairs(double time_step) {
+        for (int c = 0; c < s_.pairs.chunks(); ++c) s_.pairs.template evaluate<true>(s_.store, c, time_step);
+    }
+    std::size_t take_failures() {
+        auto const found = s_.pairs.collect_events();
+        for (auto e : found) {
+            e.step = sim_.clock_.step();
+            e.time = sim_.clock_.time();
+            events_.push_back(e);
+        }
+        return found.size();
+    }
+    void stop_particles() {
+        for (std::size_t k = 0; k < s_.store.size(); ++k) {
+            s_.store.set_velocity(k, {});
+            s_.store.set_spin(k, {});
+        }
+        for (std::size_t w = 0; w < s_.walls.size(); ++w) s_.walls.set_velocity(w, {});
+        if (s_.walls.size() > 0) s_.walls.advance(0.0);
+    }
+    void update_lists(bool changed) {
+        if (s_.pairs.remaining() < 0.7 * s_.pairs.neighbors().settings().skin) {
+            s_.pairs.search_again(s_.store);
+            changed = true;
+        } else if (changed) {
+            s_.pairs.update(s_.store);
+        }
+        if (s_.walls.remaining() < 0.7 * s_.pairs.neighbors().settings().skin) s_.update_walls();
+        if (changed) s_.fluid.map_throats(s_.pairs);
+    }
+
+    simulation_type& sim_;
+    simulation_state<Model>& s_;
+    equilibrium_parameters parameters_;
+    equilibrium_system<Model> system_;
+    std::vector<double> given_; // displacements still to be made, of all freedoms, m
+    std::vector<point> wall_given_;
+    std::vector<event_type> events_;
+};
+LACUNA_END_PACKS
+
+} // namespace lacuna

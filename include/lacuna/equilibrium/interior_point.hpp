@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Core>
+
+#include <lacuna/equilibrium/coupled_solve.hpp>
+#include <lacuna/equilibrium/parameters.hpp>
+
+namespace lacuna {
+
+/// Scales of one solve.
+struct equilibrium_scales {
+    double stiffness;      ///< median normal stiffness of the pairs, N/m
+    double force;          ///< expected force between two particles, N
+    double regularisation; ///< stiffness added to each freedom, N/m
+    double longest;        ///< largest displacement of a freedom in an iteration, m; four times as much in a solve
+    double rounding;       ///< force that stems from the rounding of positions, N
+};
+
+/// Solves the equations of an equilibrium_system by the primal-dual interior point method: Newton's method on the
+/// equations with a barrier, which falls as the contacts approach their complementarity.
+///
+/// The limit of friction follows the normal force, which makes the tangent unsymmetric. The symmetric part is
+/// factorised; the rest enters by a few iterations that use the factors (solve_coupled()).
+template <class System>
+class interior_point {
+public:
+    using vector = Eigen::VectorXd;
+
+    interior_point(System& system, equilibrium_scales const& scales, equilibrium_parameters const& p)
+        : system_(system), scales_(scales), parameters_(p) {}
+
+    /// Solves for the increment from the committed state.
+    /// \param u output, m
+    /// \return whether it converged
+    bool solve(vector& u) {
+        u = vector::Zero(system_.count());
+        goal_ = contacts() ? 10 * scales_.force * scales_.force / scales_.stiffness : 0.0;
+        share_ = 0;
+        system_.start_contacts(goal_);
+        for (int n = 0; n < parameters_.iterations; ++n) {
+            system_.linearise(u, forces_);
+            forces_ -= scales_.regularisation * u;
+            error_ = std::max(largest(forces_), system_.contact_residual());
+            if (n > 0 && converged()) return true;
+            if (n > 0 && contacts()) lower_barrier();
+            system_.matrix().add_diagonal(scales_.regularisation);
+            if (!system_.matrix().factorise()) return false;
+            vector const du = find_step();
+            if (!du.allFinite()) return false;
+            share_ = std::min(1.0, 0.99 * system_.find_steps(du));
+            if (double const far = share_ * largest(du); far > scales_.longest) share_ *= scales_.longest / far;
+            u += share_ * du;
+            system_.advance_contacts(share_);
+            if (largest(u) > 4 * scales_.longest) return false;
+        }
+        return false;
+    }
+
+private:
+    bool contacts() const noexcept { return system_.contacts() > 0; }
+    static double largest(vector const& x) { return x.size() > 0 ? x.template lpNorm<Eigen::Infinity>() : 0.0; }
+    /// Tighter than what is asked for: the exact laws, which judge the result, differ a little.
+    double tolerance() const {
+        return std::max(0.1 * parameters_.tolerance * system_.largest_force(), scales_.rounding);
+    }
+    /// Barrier at which a contact that just touches has a force of the tolerance.
+    double least_barrier() const { return tolerance() * tolerance() / scales_.stiffness; }
+    bool converged() const {
+        return error_ <= tolerance() && (!contacts() || system_.mean_product() <= 4 * least_barrier());
+    }
+    /// Lowers the barrier by as much as the last step succeeded. It waits for the forces to balance: contacts whose
+    /// barrier has gone do not move any more.
+    void lower_barrier() {
+        double const product = system_.mean_product();
+        double const factor = share_ > 0.9 ? 0.1 : share_ > 0.5 ? 0.3 : 0.7;
+        double const wait = std::min(product, 0.05 * error_ * error_ / scales_.stiffness);
+        goal_ = std::max({0.5 * least_barrier(), factor * product, wait});
+    }
+    vector find_step() {
+        system_.aim(goal_, forces_);
+        auto const solve = [&](vector const& x) { return system_.matrix().solve(x); };
+        if (!system_.rough()) return solve(forces_);
+        auto const product = [&](vector const& x) {
+            vector y = system_.matrix().product(x);
+            system_.add_coupling(x, y);
+            return y;
+        };
+        return solve_coupled(forces_, product, solve, 0.1, 10);
+    }
+
+    System& system_;
+    equilibrium_scales const& scales_;
+    equilibrium_parameters const& parameters_;
+    vector forces_;
+    double goal_ = 0, share_ = 0, error_ = 0;
+};
+
+} // namespace lacuna

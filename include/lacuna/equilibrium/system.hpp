@@ -1,0 +1,477 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <lacuna/equilibrium/bond_response.hpp>
+#include <lacuna/equilibrium/contact_formula.hpp>
+#include <lacuna/equilibrium/frictional_contact.hpp>
+#include <lacuna/equilibrium/pair_operator.hpp>
+#include <lacuna/equilibrium/parameters.hpp>
+#include <lacuna/equilibrium/stiffness_matrix.hpp>
+#include <lacuna/equilibrium/unknowns.hpp>
+#include <lacuna/interactions/kinematics.hpp>
+#include <lacuna/interactions/pair_loop.hpp>
+#include <lacuna/pores/flow/sealed_pressure.hpp>
+#include <lacuna/pores/mesh/geometry.hpp>
+#include <lacuna/simulation/simulation_state.hpp>
+
+namespace lacuna {
+
+LACUNA_BEGIN_PACKS
+/// The equations of equilibrium of a model: forces on all unknowns for an increment from the committed state, and their
+/// stiffness. The unknowns are those of lacuna::unknowns; contacts have further ones, which Newton's step eliminates.
+///
+/// An increment is the motion in one step of one unit of time, so that the engine's own kinematics and laws apply.
+template <class Model>
+class equilibrium_system {
+public:
+    using state_type = simulation_state<Model>;
+    static constexpr int dim = Model::dim;
+    using matrices = pair_matrices<dim>;
+    using vector = Eigen::VectorXd;
+    using point = vec<double, dim>;
+    using rotation = vec<double, rotation_dim<dim>>;
+    static constexpr int per_particle = matrices::per_particle;
+
+    explicit equilibrium_system(state_type& state) : s_(state) {}
+
+    /// Reads the committed state: its unknowns, pairs, pores and histories.
+    /// \param given displacement of every freedom that is held: per_particle numbers per particle, m; may be empty
+    /// \param wall_motion displacement of every wall, m
+    /// \param drained pressures stay
+    void begin(std::span<double const> given, std::span<point const> wall_motion, bool drained) {
+        numbers_ = unknowns<dim>(s_.store, s_.plates);
+        drained_ = drained;
+        given_.assign(given.begin(), given.end());
+        given_.resize(s_.store.size() * std::size_t(per_particle), 0.0);
+        wall_motion_.assign(wall_motion.begin(), wall_motion.end());
+        wall_motion_.resize(s_.walls.size(), point{});
+        start_.resize(s_.store.size());
+        for (std::size_t k = 0; k < s_.store.size(); ++k) start_[k] = s_.store.position(k);
+        matrix_.begin(numbers_.count());
+        list_bonds();
+        list_contacts();
+        list_pores();
+        matrix_.finish();
+    }
+
+    int count() const noexcept { return numbers_.count(); }
+    std::size_t contacts() const noexcept { return contacts_.size(); }
+    stiffness_matrix& matrix() noexcept { return matrix_; }
+
+    /// Largest force of a load, a pair or a pressure, N, at the last evaluation.
+    double largest_force() const noexcept { return largest_; }
+    /// Sum of the loads' sizes, N.
+    double total_load() const {
+        double sum = 0;
+        for (std::size_t k = 0; k < s_.store.size(); ++k) sum += norm(s_.store.applied_force(k));
+        return sum;
+    }
+    /// Largest displacement that is given, m.
+    double largest_given() const noexcept {
+        double most = 0;
+        for (double const g : given_) most = std::max(most, std::fabs(g));
+        for (auto const& w : wall_motion_) most = std::max(most, norm(w));
+        return most;
+    }
+
+    /// Puts all contacts on the central path of the barrier, near the committed state.
+    void start_contacts(double barrier) {
+        place(vector::Zero(count()));
+        for (auto& c : contacts_) {
+            auto const frame = c.wall >= 0 ? wall_frame(c) : pair_frame_of(c.i, c.j);
+            typename frictional_contact<dim>::shear shear{};
+            if constexpr (requires { c.state.shear_force; }) shear = c.state.shear_force;
+            c.point.start(c.formula, c.formula.touching_distance() - frame.motion.distance, shear, barrier);
+        }
+    }
+    /// Mean product of force and gap over the contacts, J.
+    double mean_product() const noexcept {
+        double sum = 0;
+        for (auto const& c : contacts_) sum += c.point.product();
+        return contacts_.empty() ? 0 : sum / double(contacts_.size());
+    }
+    double largest_product() const noexcept {
+        double most = 0;
+        for (auto const& c : contacts_) most = std::max(most, c.point.product());
+        return most;
+    }
+    /// Largest error of the contacts' own equations, as a force, N.
+    double contact_residual() const noexcept {
+        double most = 0;
+        for (auto const& c : contacts_) most = std::max(most, c.point.residual());
+        return most;
+    }
+
+    /// Linearises everything at an increment: the forces of pairs, pores and loads on the unknowns, N, and their
+    /// stiffness.
+    void linearise(vector const& u, vector& forces) {
+        place(u);
+        matrix_.set_zero();
+        forces.setZero(count());
+        largest_ = 0;
+        add_loads(forces);
+        for (auto& b : bonds_) add_bond(b, forces);
+        for (auto& c : contacts_) add_contact(c, forces);
+        if constexpr (has_fluid<Model>)
+            for (auto& p : pores_) add_pore(p, forces);
+    }
+    /// Aims all contacts at a barrier and adds the changes of force that they ask for, N.
+    void aim(double barrier, vector& forces) {
+        for (auto& c : contacts_) {
+            c.point.aim(barrier);
+            scatter(c, matrices::force(c.frame, -c.point.push(), c.point.pull()), 1.0, forces);
+        }
+    }
+    /// What the friction's limit, which follows the normal force, adds to matrix() times x; it is not symmetric.
+    void add_coupling(vector const& x, vector& to) const {
+        for (auto const& c : contacts_) {
+            if (!c.point.rough()) continue;
+            typename matrices::point const change =
+                matrices::force(c.frame, 0, c.point.follow()) * (-c.point.weight() * normal_part(c, x));
+            scatter(c, change, -1.0, to);
+        }
+    }
+    /// Whether any contact has friction.
+    bool rough() const noexcept {
+        return std::any_of(contacts_.begin(), contacts_.end(), [](auto const& c) { return c.point.rough(); });
+    }
+
+    /// Finds the steps of all contacts from that of the unknowns.
+    /// \return largest share of the step, at most 1, that keeps the contacts inside their limits
+    double find_steps(vector const& du) {
+        double share = 1;
+        for (auto& c : contacts_) {
+            auto const w = relative(c, du);
+            c.point.find_step(matrices::to_eigen(c.frame.normal).dot(w), matrices::slip(c.frame, w));
+            share = std::min(share, c.point.longest_step());
+        }
+        return share;
+    }
+    void advance_contacts(double share) {
+        for (auto& c : contacts_) c.point.advance(c.formula, share);
+    }
+
+    /// Forces of the exact laws on the unknowns, without barrier, N, at an increment.
+    void exact_forces(vector const& u, vector& forces) {
+        place(u);
+        forces.setZero(count());
+        largest_ = 0;
+        add_loads(forces);
+        for (auto const& b : bonds_) {
+            auto const f = evaluate(b);
+            note(f.force.norm());
+            scatter_bond(b, f, forces);
+        }
+        for (auto& c : contacts_) {
+            c.frame = c.wall >= 0 ? wall_frame(c) : pair_frame_of(c.i, c.j);
+            auto const answer = ContactLaw::evaluate(*c.row, c.frame.motion, detail::turned<ContactLaw, dim>(c.state, c.frame));
+            c.b = matrices::relative_displacement(c.frame);
+            typename matrices::point const f = matrices::force(c.frame, answer.normal_force, answer.shear_force);
+            note(f.norm());
+            scatter(c, f, 1.0, forces);
+        }
+        if constexpr (has_fluid<Model>)
+            for (auto& p : pores_) scatter_pore(p, measure(p), forces);
+    }
+    /// Calls visit(number of the bond, whether the law says that it fails) at an increment.
+    template <class Visit>
+    void for_each_bond(vector const& u, Visit const& visit) {
+        place(u);
+        for (auto const& b : bonds_) visit(b.label, evaluate(b).broken);
+    }
+
+    /// Displacement or surface rotation of a freedom in the increment at which the forces were found last, m.
+    double motion(std::size_t k, int freedom) const noexcept { return motion_[k * std::size_t(per_particle) + std::size_t(freedom)]; }
+    /// Puts the particles of the store back to their committed positions.
+    void restore() {
+        for (std::size_t k = 0; k < start_.size(); ++k) s_.store.set_position(k, start_[k]);
+    }
+    /// Largest displacement of a freedom in an increment, m, with given ones.
+    double largest_motion(vector const& u) const {
+        return std::max(u.size() > 0 ? u.lpNorm<Eigen::Infinity>() : 0.0, largest_given());
+    }
+    std::vector<point> const& wall_motion() const noexcept { return wall_motion_; }
+
+private:
+    using ContactLaw = typename Model::contact_law;
+    using BondLaw = typename Model::bond_law;
+    static constexpr bool with_bonds = !is_absent<BondLaw>, with_contacts = !is_absent<ContactLaw>;
+
+    struct bond_element {
+        std::size_t i, j, element;
+        std::int32_t label;
+        typename BondLaw::template parameters<double> const* row;
+        typename BondLaw::template history<double, dim> state;
+    };
+    struct contact_element {
+        std::size_t i, j, element;
+        int wall; // -1: a pair
+        typename ContactLaw::template parameters<double> const* row;
+        typename ContactLaw::template history<double, dim> state;
+        contact_formula<ContactLaw, dim> formula;
+        frictional_contact<dim> point;
+        pair_frame<double, dim> frame;
+        typename matrices::operators b;
+    };
+    static constexpr std::size_t corners = std::size_t(dim) + 1;
+    struct pore_element {
+        std::size_t pore, element;
+    };
+    struct pore_state {
+        double pressure, stiffness; // Pa, Pa/m^3
+        std::array<point, corners> traction; // N per Pa
+    };
+
+    void list_bonds() {
+        bonds_.clear();
+        if constexpr (with_bonds) {
+            auto const& table = s_.pairs.bonds();
+            for (std::size_t slot = 0; slot < table.slots(); ++slot) {
+                if (table.is_padding(slot, s_.store.size())) continue;
+                auto const entry = table.get(slot);
+                bonds_.push_back({std::size_t(entry.i), std::size_t(entry.j), add_pair(std::size_t(entry.i), std::size_t(entry.j)),
+                                  entry.label, &s_.pairs.bond_parameters().row[std::size_t(entry.parameter)], entry.state});
+            }
+        }
+    }
+    void list_contacts() {
+        contacts_.clear();
+        if constexpr (with_contacts) {
+            static_assert(!carries_moment<ContactLaw>, "equilibrium: a contact law with moments is not supported yet");
+            auto const& table = s_.pairs.contacts();
+            for (int c = 0; c < table.chunks(); ++c)
+                for (std::size_t slot = table.first_slot(c), end = slot + table.chunk_size(c); slot < end; ++slot) {
+                    auto const entry = table.get(slot);
+                    auto const i = std::size_t(entry.i), j = std::size_t(entry.j);
+                    add_contact_element(i, j, -1, s_.pairs.contact_parameters().row[std::size_t(entry.parameter)], entry.state,
+                                        s_.store.radius(j));
+                }
+            s_.walls.for_each_listed([&](std::size_t w, std::size_t k, auto const& state) {
+                add_contact_element(k, k, int(w), s_.walls.parameters(w, std::size_t(s_.store.material(k))), state, 0);
+            });
+        }
+    }
+    template <class Row, class History>
+    void add_contact_element(std::size_t i, std::size_t j, int wall, Row const& row, History const& state, double radius_j) {
+        std::size_t const element = wall >= 0 ? matrix_.add_element(numbers_.of(i)) : add_pair(i, j);
+        contacts_.push_back({i, j, element, wall, &row, state, contact_formula<ContactLaw, dim>(row, state, s_.store.radius(i), radius_j), {}, {}, {}});
+    }
+    std::size_t add_pair(std::size_t i, std::size_t j) {
+        std::array<int, std::size_t(2 * per_particle)> n{};
+        std::copy_n(numbers_.of(i).begin(), per_particle, n.begin());
+        std::copy_n(numbers_.of(j).begin(), per_particle, n.begin() + per_particle);
+        return matrix_.add_element(n);
+    }
+    void list_pores() {
+        pores_.clear();
+        if constexpr (has_fluid<Model>) {
+            if (!s_.filled()) return;
+            auto const& net = s_.fluid.get()->network();
+            for (std::size_t p = 0; p < net.pores(); ++p) {
+                std::array<int, corners * std::size_t(dim)> n{};
+                for (std::size_t c = 0; c < corners; ++c)
+                    for (int axis = 0; axis < dim; ++axis)
+                        n[c * std::size_t(dim) + std::size_t(axis)] = numbers_.of(std::size_t(net.corner[c][p]), axis);
+                pores_.push_back({p, matrix_.add_element(n)});
+            }
+        }
+    }
+
+    /// Moves the particles of the store to an increment.
+    void place(vector const& u) {
+        motion_ = given_;
+        for (std::size_t k = 0; k < start_.size(); ++k) {
+            for (int f = 0; f < per_particle; ++f)
+                if (int const n = numbers_.of(k, f); n >= 0) motion_[k * std::size_t(per_particle) + std::size_t(f)] = u[n];
+            point x = start_[k];
+            for (int axis = 0; axis < dim; ++axis) x[axis] += motion(k, axis);
+            s_.store.set_position(k, x);
+        }
+    }
+    point shift(std::size_t k) const noexcept {
+        point v{};
+        for (int axis = 0; axis < dim; ++axis) v[axis] = motion(k, axis);
+        return v;
+    }
+    rotation surface(std::size_t k) const noexcept {
+        rotation v{};
+        for (int r = 0; r < rotation_dim<dim>; ++r) v[r] = motion(k, dim + r);
+        return v;
+    }
+    pair_frame<double, dim> pair_frame_of(std::size_t i, std::size_t j) const {
+        double const ri = s_.store.radius(i), rj = s_.store.radius(j);
+        return relative_motion(relative_state<double, dim>{s_.store.nearest(s_.store.position(j) - s_.store.position(i)),
+                                                           shift(j) - shift(i), surface(i) + surface(j), ri + rj, ri, rj},
+                               1.0);
+    }
+    pair_frame<double, dim> wall_frame(contact_element const& c) const {
+        double const r = s_.store.radius(c.i);
+        body<double, dim> const particle{s_.store.position(c.i), shift(c.i), surface(c.i) / r, r, s_.store.mass(c.i)};
+        auto const& moved = wall_motion_[std::size_t(c.wall)];
+        return s_.walls.frame(std::size_t(c.wall), particle, moved, moved, 1.0);
+    }
+    pair_rotation<double, dim> rotation_of(bond_element const& b, pair_frame<double, dim> const& frame) const {
+        return frame.relative_rotation(surface(b.i) / s_.store.radius(b.i), surface(b.j) / s_.store.radius(b.j), 1.0);
+    }
+
+    double load(std::size_t k, int freedom) const {
+        if (freedom < dim) return s_.store.load(k)[freedom];
+        if constexpr (dim == 2) return s_.store.load(k)[2];
+        return s_.store.torques().size() > 0 ? s_.store.torques().at(k, freedom - dim) : 0.0;
+    }
+    void add_loads(vector& to) {
+        for (std::size_t k = 0; k < s_.store.size(); ++k)
+            for (int f = 0; f < per_particle; ++f)
+                if (int const n = numbers_.of(k, f); n >= 0) {
+                    double const force = load(k, f);
+                    note(std::fabs(force));
+                    to[n] += force;
+                }
+    }
+    void note(double force) noexcept { largest_ = std::max(largest_, force); }
+
+    bond_forces<BondLaw, dim> evaluate(bond_element const& b) const {
+        auto const frame = pair_frame_of(b.i, b.j);
+        return evaluate_bond<BondLaw, dim>(*b.row, frame, rotation_of(b, frame), detail::turned<BondLaw, dim>(b.state, frame));
+    }
+    void add_bond(bond_element const& b, vector& forces) {
+        auto const frame = pair_frame_of(b.i, b.j);
+        auto const rotation = rotation_of(b, frame);
+        auto const state = detail::turned<BondLaw, dim>(b.state, frame);
+        auto const f = evaluate_bond<BondLaw, dim>(*b.row, frame, rotation, state);
+        auto const k = bond_tangent<BondLaw, dim>(*b.row, frame, rotation, state);
+        note(f.force.norm());
+        scatter_bond(b, f, forces);
+        using forces_type = bond_forces<BondLaw, dim>;
+        Eigen::Matrix<double, forces_type::strains, matrices::freedoms> op;
+        op.template topRows<dim>() = matrices::relative_displacement(frame);
+        if constexpr (forces_type::bends)
+            op.template bottomRows<rotation_dim<dim>>() = matrices::relative_rotation(s_.store.radius(b.i), s_.store.radius(b.j));
+        typename matrices::element stiffness = op.transpose() * k * op;
+        if (f.normal_force > 0) {
+            // A taut bond resists a turn of its normal.
+            auto const centres = matrices::relative_centres();
+            auto const n = matrices::to_eigen(frame.normal);
+            typename matrices::tensor const across = (matrices::tensor::Identity() - n * n.transpose()) * (f.normal_force / frame.motion.distance);
+            stiffness += centres.transpose() * across * centres;
+        }
+        matrix_.add(b.element, stiffness);
+    }
+    void scatter_bond(bond_element const& b, bond_forces<BondLaw, dim> const& f, vector& to) const {
+        auto const frame = pair_frame_of(b.i, b.j);
+        Eigen::Matrix<double, matrices::freedoms, 1> all = -(matrices::relative_displacement(frame).transpose() * f.force);
+        if constexpr (bond_forces<BondLaw, dim>::bends)
+            all -= matrices::relative_rotation(s_.store.radius(b.i), s_.store.radius(b.j)).transpose() * f.moment;
+        scatter_pair(b.i, b.j, all, to);
+    }
+    template <class All>
+    void scatter_pair(std::size_t i, std::size_t j, All const& all, vector& to) const {
+        for (int f = 0; f < per_particle; ++f) {
+            if (int const n = numbers_.of(i, f); n >= 0) to[n] += all[f];
+            if (int const n = numbers_.of(j, f); n >= 0) to[n] += all[per_particle + f];
+        }
+    }
+
+    void add_contact(contact_element& c, vector& forces) {
+        c.frame = c.wall >= 0 ? wall_frame(c) : pair_frame_of(c.i, c.j);
+        c.b = matrices::relative_displacement(c.frame);
+        typename frictional_contact<dim>::shear before{}, normal{};
+        if constexpr (requires { c.state.shear_force; }) before = detail::turned<ContactLaw, dim>(c.state, c.frame).shear_force;
+        if constexpr (dim == 3) normal = c.frame.normal;
+        c.point.linearise(c.frame.motion.distance - c.formula.touching_distance(), c.frame.motion.slip, before, normal);
+        typename matrices::point const now = matrices::force(c.frame, -c.point.force(), c.point.shear_force());
+        note(now.norm());
+        scatter(c, now, 1.0, forces);
+        auto const n = matrices::to_eigen(c.frame.normal);
+        typename matrices::tensor k = n * n.transpose() * c.point.weight();
+        if (c.point.rough()) {
+            auto const axes = matrices::axes(c.frame);
+            for (int t = 1; t < dim; ++t) {
+                typename matrices::point const along = axes.col(t);
+                k += matrices::force(c.frame, 0, c.point.soften(matrices::slip(c.frame, along))) * along.transpose();
+            }
+        }
+        if (c.wall >= 0) {
+            auto const half = c.b.template leftCols<per_particle>();
+            matrix_.add(c.element, (half.transpose() * k * half).eval());
+        } else {
+            matrix_.add(c.element, (c.b.transpose() * k * c.b).eval());
+        }
+    }
+    /// Adds `sign` times the forces on the unknowns for a force on i.
+    void scatter(contact_element const& c, typename matrices::point const& force, double sign, vector& to) const {
+        Eigen::Matrix<double, matrices::freedoms, 1> const all = -sign * (c.b.transpose() * force);
+        if (c.wall < 0) return scatter_pair(c.i, c.j, all, to);
+        for (int f = 0; f < per_particle; ++f)
+            if (int const n = numbers_.of(c.i, f); n >= 0) to[n] += all[f];
+    }
+    /// Relative displacement at a contact for a change of the unknowns.
+    typename matrices::point relative(contact_element const& c, vector const& du) const {
+        Eigen::Matrix<double, matrices::freedoms, 1> local = Eigen::Matrix<double, matrices::freedoms, 1>::Zero();
+        for (int f = 0; f < per_particle; ++f) {
+            if (int const n = numbers_.of(c.i, f); n >= 0) local[f] = du[n];
+            if (c.wall < 0)
+                if (int const n = numbers_.of(c.j, f); n >= 0) local[per_particle + f] = du[n];
+        }
+        return c.b * local;
+    }
+    double normal_part(contact_element const& c, vector const& x) const {
+        return matrices::to_eigen(c.frame.normal).dot(relative(c, x));
+    }
+
+    pore_state measure(pore_element const& p) const {
+        auto const& flow = *s_.fluid.get();
+        auto const& net = flow.network();
+        auto const now = flow.pore_geometry(p.pore, s_.store.positions(), s_.store.radii().data());
+        pore_state state{net.pressure[p.pore], 0, now.traction};
+        if (!now.open) {
+            state.pressure = 0;
+        } else if (!drained_) {
+            auto const sealed = sealed_pressure(flow.settings(), net.pressure[p.pore], net.old_volume[p.pore], net.vapour_of(p.pore), now.volume);
+            state.pressure = sealed.pressure;
+            state.stiffness = sealed.stiffness;
+        }
+        return state;
+    }
+    void scatter_pore(pore_element const& p, pore_state const& state, vector& to) {
+        auto const& net = s_.fluid.get()->network();
+        for (std::size_t c = 0; c < corners; ++c) {
+            note(norm(state.traction[c]) * std::fabs(state.pressure));
+            for (int axis = 0; axis < dim; ++axis)
+                if (int const n = numbers_.of(std::size_t(net.corner[c][p.pore]), axis); n >= 0) to[n] += state.traction[c][axis] * state.pressure;
+        }
+    }
+    void add_pore(pore_element const& p, vector& forces) {
+        auto const state = measure(p);
+        scatter_pore(p, state, forces);
+        if (!(state.stiffness > 0)) return;
+        Eigen::Matrix<double, int(corners) * dim, 1> g;
+        for (std::size_t c = 0; c < corners; ++c)
+            for (int axis = 0; axis < dim; ++axis) g[int(c) * dim + axis] = state.traction[c][axis];
+        matrix_.add(p.element, (g * g.transpose() * state.stiffness).eval());
+    }
+
+    state_type& s_;
+    unknowns<dim> numbers_;
+    stiffness_matrix matrix_;
+    bool drained_ = false;
+    std::vector<double> given_, motion_; // of all freedoms, m
+    std::vector<point> wall_motion_, start_;
+    std::vector<bond_element> bonds_;
+    std::vector<contact_element> contacts_;
+    std::vector<pore_element> pores_;
+    double largest_ = 0;
+};
+LACUNA_END_PACKS
+
+} // namespace lacuna
