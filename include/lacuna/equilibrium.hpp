@@ -69,46 +69,26 @@ public:
     }
 
     /// Searches for the equilibrium under the present loads, from the present state, and moves the simulation there.
-    /// Bonds fail on the way; see events().
+    ///
+    /// Bonds fail on the way, one after the other: each increment ends where the first bond fails, and the next one
+    /// begins from there at the same loads. See events().
     /// \throws std::logic_error for a model with fluid whose pores are not filled
+    /// \throws std::invalid_argument for a contact law whose force does not grow with the overlap, and for parts of a
+    ///         simulation that no equilibrium knows: servo walls, merged pores
     equilibrium_result solve() {
         begin();
         equilibrium_result result;
-        events_.clear();
+        double const radius = median_radius(s_.store.radii());
         double regularisation = parameters_.regularisation;
         int const factorised = system_.matrix().factorisations();
-        double const radius = median_radius(s_.store.radii());
-        double const longest = 0.25 * radius;
-        Eigen::VectorXd u, forces;
-        for (; result.solves < parameters_.solves; ++result.solves) {
-            double const share = begin_increment(0.2 * longest_motion());
-            auto scales = find_scales(longest);
-            scales.regularisation = regularisation * scales.stiffness;
-            if (!interior_point(system_, scales, parameters_).solve(u)) {
-                system_.restore();
+        for (int idle = 0; idle < parameters_.solves && regularisation < 1e6; ++idle, ++result.solves) {
+            if (!make_increment(regularisation, 0.25 * radius, result)) {
                 regularisation *= 8;
-                if (regularisation > 1e6) break;
                 continue;
             }
-            double const moved = system_.largest_motion(u);
-            double const part = std::min(1.0, longest_motion() / std::max(moved, 1e-300));
-            result.trials.push_back({regularisation, moved});
-            result.displacement += part * moved;
-            result.regularisation = result.trials.size() == 1 ? regularisation : std::min(result.regularisation, regularisation);
-            std::size_t const failures = commit(part);
-            result.broken += failures;
-            reduce_given(share * part);
-            if (share * part < 1 || failures > 0) continue;
-            begin_increment(0);
-            system_.exact_forces(Eigen::VectorXd::Zero(system_.count()), forces);
-            result.unbalanced = forces.size() > 0 ? forces.lpNorm<Eigen::Infinity>() : 0.0;
-            result.largest_force = system_.largest_force();
-            double const allowed = std::max(parameters_.tolerance * result.largest_force, 4 * scales.rounding);
-            if (result.unbalanced <= allowed) {
-                result.outcome = equilibrium_outcome::reached;
-                ++result.solves;
-                break;
-            }
+            if (last_.failures > 0) idle = 0;
+            if (last_.share < 1 || last_.failures > 0) continue;
+            if (check_balance(result)) break;
             if (result.displacement > parameters_.largest_motion * radius) {
                 result.outcome = equilibrium_outcome::mechanism;
                 break;
@@ -116,6 +96,7 @@ public:
             regularisation = std::max(regularisation / 10, parameters_.regularisation);
         }
         result.factorisations = system_.matrix().factorisations() - factorised;
+        result.broken = events_.size();
         end();
         return result;
     }
@@ -135,23 +116,89 @@ private:
         }
     }
 
-    /// Brings histories and lists up to date with the positions of the last step, and the particles to rest.
+    /// Refuses what no equilibrium knows. Brings histories and lists up to date with the positions of the last step, and
+    /// the particles to rest.
     void begin() {
-        if constexpr (has_fluid<Model>)
-            if (!s_.filled()) throw std::logic_error("equilibrium: the model has a fluid but fill_pores() was not called");
-        s_.pairs.set_force_retention(s_.store, false, s_.settings.threads);
+        if constexpr (has_fluid<Model>) {
+            if (!s_.filled())
+                throw std::logic_error("equilibrium: the model has a fluid but fill_pores() was not called");
+            if (double const merged = s_.fluid.get()->settings().merge_conductance; std::isfinite(merged))
+                refuse("flow.merge_conductance", merged, "infinite for an equilibrium");
+        }
+        for (std::size_t w = 0; w < s_.walls.size(); ++w)
+            if (s_.wall_motions.has_servo(w)) refuse("wall " + std::to_string(w), "moved by a servo", "still for an equilibrium");
+        events_.clear();
+        remember_prescribed();
         double const last = sim_.clock_.step() > 0 ? sim_.clock_.previous_step() : 0.0;
-        evaluate_pairs(last);
-        s_.walls.evaluate(s_.store, last, s_.settings.damping, s_.other_forces, s_.wall_energy);
+        s_.pairs.set_force_retention(s_.store, false, s_.settings.threads);
+        evaluate_laws(last);
         take_failures();
         stop_particles();
         update_lists(true);
     }
+    /// Gives held particles and walls their prescribed velocities back.
     void end() {
         system_.restore();
         given_.clear();
         wall_given_.clear();
+        for (std::size_t k = 0; k < s_.store.size(); ++k) {
+            point v{};
+            for (int axis = 0; axis < dim; ++axis)
+                if (s_.store.held(k, axis)) v[axis] = velocity_[k][axis];
+            s_.store.set_velocity(k, v);
+            if (s_.store.mobility(k, dim) == 0) s_.store.set_spin(k, spin_[k]);
+        }
+        for (std::size_t w = 0; w < s_.walls.size(); ++w) s_.walls.set_velocity(w, wall_velocity_[w]);
+        s_.changes.clear();
         s_.ledger.close();
+        sim_.clock_.state_changed();
+    }
+    void remember_prescribed() {
+        velocity_.clear();
+        spin_.clear();
+        wall_velocity_.clear();
+        for (std::size_t k = 0; k < s_.store.size(); ++k) {
+            velocity_.push_back(s_.store.velocity(k));
+            spin_.push_back(s_.store.spin(k));
+        }
+        for (std::size_t w = 0; w < s_.walls.size(); ++w) wall_velocity_.push_back(s_.walls.next_velocity(w));
+    }
+
+    /// Solves for one increment and moves the simulation by the share of it that its lists and bonds allow.
+    /// \param longest displacement in one iteration, m
+    /// \return whether the solve converged
+    bool make_increment(double regularisation, double longest, equilibrium_result& result) {
+        double const share = begin_increment(0.2 * longest_motion());
+        auto const scales = find_scales(longest, regularisation);
+        rounding_ = scales.rounding;
+        if (!interior_point(system_, scales, parameters_).solve(increment_)) {
+            system_.restore();
+            return false;
+        }
+        double const moved = system_.largest_motion(increment_);
+        double part = moved > longest_motion() ? longest_motion() / moved : 1.0;
+        part = system_.first_failure(increment_, part);
+        if (result.trials.empty()) result.first_failure = share * part;
+        bool const least = result.trials.empty() || regularisation < result.regularisation;
+        if (least) result.regularisation = regularisation;
+        result.trials.push_back({regularisation, moved});
+        result.displacement += part * moved;
+        result.complementarity = system_.largest_product() * scales.stiffness / (system_.largest_force() * system_.largest_force());
+        last_ = {share * part, commit(part)};
+        if (result.trials.size() == 1 && last_.failures == 0) result.first_failure = 1;
+        reduce_given(last_.share);
+        return true;
+    }
+    /// \return whether the committed state is in equilibrium by the exact laws
+    bool check_balance(equilibrium_result& result) {
+        begin_increment(0);
+        Eigen::VectorXd forces;
+        system_.exact_forces(Eigen::VectorXd::Zero(system_.count()), forces);
+        result.unbalanced = forces.size() > 0 ? forces.lpNorm<Eigen::Infinity>() : 0.0;
+        result.largest_force = system_.largest_force();
+        bool const balanced = result.unbalanced <= std::max(parameters_.tolerance * result.largest_force, 4 * rounding_);
+        if (balanced) result.outcome = equilibrium_outcome::reached;
+        return balanced;
     }
 
     /// \return share of the given displacements that this increment takes
@@ -164,7 +211,7 @@ private:
         std::vector<point> walls(wall_given_);
         for (auto& g : part) g *= share;
         for (auto& w : walls) w = w * share;
-        system_.begin(part, walls, parameters_.pores == pore_condition::drained);
+        system_.begin(part, walls, parameters_.pores == pore_condition::drained, sim_.clock_.time());
         return share;
     }
     void reduce_given(double share) {
@@ -179,7 +226,7 @@ private:
     /// No two particles outside the candidates may meet within a solve.
     double longest_motion() const { return 0.49 * std::min(s_.pairs.remaining(), s_.walls.remaining()); }
 
-    equilibrium_scales find_scales(double longest) const {
+    equilibrium_scales find_scales(double longest, double regularisation) const {
         equilibrium_scales scales{1, 0, 0, longest, 0};
         std::vector<double> stiffness;
         double squares = 0;
@@ -203,38 +250,33 @@ private:
         for (std::size_t k = 0; k < s_.store.size(); ++k)
             for (int axis = 0; axis < dim; ++axis) extent = std::max(extent, std::fabs(s_.store.position(k)[axis]));
         scales.rounding = 8 * std::numeric_limits<double>::epsilon() * extent * scales.stiffness;
+        scales.regularisation = regularisation * scales.stiffness;
         return scales;
     }
 
-    /// Moves the simulation by a part of the increment, by the exact laws.
+    /// Moves the simulation by a share of the increment, by the exact laws.
     /// \return number of bonds that failed
-    std::size_t commit(double part) {
-        system_.restore();
-        auto& store = s_.store;
+    std::size_t commit(double share) {
+        system_.displace(increment_, share);
         double most = 0;
-        for (std::size_t k = 0; k < store.size(); ++k) {
-            point shift{};
-            vec<double, rotation_dim<dim>> spin{};
-            for (int axis = 0; axis < dim; ++axis) shift[axis] = part * system_.motion(k, axis);
-            for (int r = 0; r < rotation_dim<dim>; ++r) spin[r] = part * system_.motion(k, dim + r) / store.radius(k);
-            most = std::max(most, norm(shift));
-            store.displace(k, shift, spin);
-        }
-        for (std::size_t w = 0; w < s_.walls.size(); ++w) s_.walls.set_velocity(w, system_.wall_motion()[w] * part);
+        for (std::size_t k = 0; k < s_.store.size(); ++k) most = std::max(most, norm(s_.store.velocity(k)));
+        for (std::size_t w = 0; w < s_.walls.size(); ++w) s_.walls.set_velocity(w, system_.wall_motion()[w] * share);
         if (s_.walls.size() > 0) s_.walls.advance(1.0);
         for (int c = 0; c < s_.pairs.chunks(); ++c) s_.pairs.add_path(c, most);
-        for (std::size_t b = 0; b * s_.walls.block_particles < store.size(); ++b) s_.walls.add_path(b, most);
-        evaluate_pairs(1.0);
-        s_.walls.evaluate(store, 1.0, s_.settings.damping, s_.other_forces, s_.wall_energy);
+        for (std::size_t b = 0; b * s_.walls.block_particles < s_.store.size(); ++b) s_.walls.add_path(b, most);
+        evaluate_laws(1.0);
         if constexpr (has_fluid<Model>)
-            s_.fluid.get()->settle_pores(store.positions(), store.radii().data(), parameters_.pores == pore_condition::sealed);
+            s_.fluid.get()->settle_pores(s_.store.positions(), s_.store.radii().data(),
+                                         parameters_.pores == pore_condition::sealed);
         std::size_t const failures = take_failures();
         stop_particles();
         update_lists(failures > 0);
         return failures;
     }
-    void evaluate_pairs(double time_step) {
+    /// Commits the histories of pairs and walls at the present positions.
+    void evaluate_laws(double time_step) {
         for (int c = 0; c < s_.pairs.chunks(); ++c) s_.pairs.template evaluate<true>(s_.store, c, time_step);
+        s_.walls.evaluate(s_.store, time_step, s_.settings.damping, s_.other_forces, s_.wall_energy);
     }
     std::size_t take_failures() {
         auto const found = s_.pairs.collect_events();
@@ -271,6 +313,14 @@ private:
     std::vector<double> given_; // displacements still to be made, of all freedoms, m
     std::vector<point> wall_given_;
     std::vector<event_type> events_;
+    Eigen::VectorXd increment_;
+    double rounding_ = 0;
+    struct {
+        double share; // of the displacements to be made
+        std::size_t failures;
+    } last_{};
+    std::vector<point> velocity_, wall_velocity_; // of the simulation, prescribed
+    std::vector<vec<double, rotation_dim<dim>>> spin_;
 };
 LACUNA_END_PACKS
 

@@ -29,6 +29,15 @@ struct bond_forces {
     bool broken = false;     ///< whether the law says that the bond fails
 };
 
+/// A symmetric matrix whose negative eigenvalues are replaced by zero: a stiffness with which Newton's matrix stays
+/// positive definite.
+template <class Matrix>
+Matrix without_negative_directions(Matrix const& k) {
+    if (k.llt().info() == Eigen::Success) return k;
+    Eigen::SelfAdjointEigenSolver<Matrix> modes(k);
+    return modes.eigenvectors() * modes.eigenvalues().cwiseMax(0.0).asDiagonal() * modes.eigenvectors().transpose();
+}
+
 namespace detail {
 
 template <class Law, class P, class M, class R, class H>
@@ -41,9 +50,8 @@ auto evaluate_bond(P const& parameters, M const& motion, [[maybe_unused]] R cons
 
 /// The history with its vectors turned with the pair.
 template <class Law, int Dim, class H>
-H turned(H state, pair_frame<double, Dim> const& frame) {
-    if constexpr (Dim == 3 && requires { state.shear_force; }) state.shear_force = frame.rotate_with_pair(state.shear_force);
-    if constexpr (Dim == 3 && carries_moment<Law>) state.bending_moment = frame.rotate_with_pair(state.bending_moment);
+H turned(H state, [[maybe_unused]] pair_frame<double, Dim> const& frame) {
+    if constexpr (Dim == 3) rotate_history<Law>(state, frame);
     return state;
 }
 
@@ -121,11 +129,8 @@ typename bond_forces<Law, Dim>::tangent_matrix bond_tangent(P const& parameters,
             along.template block<3, 1>(3, 5) = axes.col(0);
         }
     }
-    typename forces::tangent_matrix k = change * along.transpose();
-    k = (0.5 * (k + k.transpose())).eval();
-    if (k.llt().info() == Eigen::Success) return k;
-    Eigen::SelfAdjointEigenSolver<typename forces::tangent_matrix> modes(k);
-    return modes.eigenvectors() * modes.eigenvalues().cwiseMax(0.0).asDiagonal() * modes.eigenvectors().transpose();
+    typename forces::tangent_matrix const k = change * along.transpose();
+    return without_negative_directions((0.5 * (k + k.transpose())).eval());
 }
 
 } // namespace lacuna

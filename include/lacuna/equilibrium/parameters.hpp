@@ -61,6 +61,9 @@ struct equilibrium_result {
     double largest_force = 0;
     /// Largest product of a contact's force and its gap, over the largest force and overlap, 1.
     double complementarity = 0;
+    /// Share of the first increment at which the first bond failed, 1: the load of the failure lies as far between the
+    /// loads before and after; 1 if none failed then.
+    double first_failure = 1;
     double displacement = 0;   ///< largest displacement of a freedom since the call, m
     double regularisation = 0; ///< least regularisation that was solved with, 1
     /// Regularisations of the solves and their displacements; in a mechanism they grow as 1 / regularisation.

@@ -22,6 +22,7 @@
 #include <lacuna/interactions/pair_loop.hpp>
 #include <lacuna/pores/flow/sealed_pressure.hpp>
 #include <lacuna/pores/mesh/geometry.hpp>
+#include <lacuna/simulation/force_terms.hpp>
 #include <lacuna/simulation/simulation_state.hpp>
 
 namespace lacuna {
@@ -48,11 +49,14 @@ public:
     /// \param given displacement of every freedom that is held: per_particle numbers per particle, m; may be empty
     /// \param wall_motion displacement of every wall, m
     /// \param drained pressures stay
-    void begin(std::span<double const> given, std::span<point const> wall_motion, bool drained) {
+    /// \param time at which the model's own forces act, s
+    void begin(std::span<double const> given, std::span<point const> wall_motion, bool drained, double time) {
+        time_ = time;
         numbers_ = unknowns<dim>(s_.store, s_.plates);
         drained_ = drained;
         given_.assign(given.begin(), given.end());
         given_.resize(s_.store.size() * std::size_t(per_particle), 0.0);
+        motion_.assign(given_.size(), 0.0);
         wall_motion_.assign(wall_motion.begin(), wall_motion.end());
         wall_motion_.resize(s_.walls.size(), point{});
         start_.resize(s_.store.size());
@@ -61,6 +65,10 @@ public:
         list_bonds();
         list_contacts();
         list_pores();
+        own_elements_.clear();
+        if (own_force_term::active(s_))
+            for (std::size_t k = 0; k < s_.store.size(); ++k)
+                own_elements_.push_back(matrix_.add_element(numbers_.of(k).first(dim)));
         matrix_.finish();
     }
 
@@ -120,6 +128,8 @@ public:
         forces.setZero(count());
         largest_ = 0;
         add_loads(forces);
+        add_own_forces(forces);
+        add_own_stiffness();
         for (auto& b : bonds_) add_bond(b, forces);
         for (auto& c : contacts_) add_contact(c, forces);
         if constexpr (has_fluid<Model>)
@@ -167,6 +177,7 @@ public:
         forces.setZero(count());
         largest_ = 0;
         add_loads(forces);
+        add_own_forces(forces);
         for (auto const& b : bonds_) {
             auto const f = evaluate(b);
             note(f.force.norm());
@@ -183,15 +194,31 @@ public:
         if constexpr (has_fluid<Model>)
             for (auto& p : pores_) scatter_pore(p, measure(p), forces);
     }
-    /// Calls visit(number of the bond, whether the law says that it fails) at an increment.
-    template <class Visit>
-    void for_each_bond(vector const& u, Visit const& visit) {
-        place(u);
-        for (auto const& b : bonds_) visit(b.label, evaluate(b).broken);
+    /// Smallest share of an increment, up to `most`, at which a bond fails; `most` if none does.
+    double first_failure(vector const& u, double most) {
+        place(u, most);
+        std::vector<bond_element const*> failing;
+        for (auto const& b : bonds_)
+            if (evaluate(b).broken) failing.push_back(&b);
+        if (failing.empty()) return most;
+        double low = 0, high = most;
+        for (int n = 0; n < 40; ++n) {
+            double const middle = 0.5 * (low + high);
+            place(u, middle);
+            bool const fails = std::any_of(failing.begin(), failing.end(), [&](auto const* b) { return evaluate(*b).broken; });
+            (fails ? high : low) = middle;
+        }
+        // A little further, so that rounding in another order does not save the bond.
+        return std::min(most, high * (1 + 1e-9));
+    }
+    /// Moves the simulation's particles to a share of an increment, as one step of one second would.
+    void displace(vector const& u, double share) {
+        place(u, share);
+        restore();
+        for (std::size_t k = 0; k < start_.size(); ++k)
+            s_.store.displace(k, shift(k), surface(k) / s_.store.radius(k));
     }
 
-    /// Displacement or surface rotation of a freedom in the increment at which the forces were found last, m.
-    double motion(std::size_t k, int freedom) const noexcept { return motion_[k * std::size_t(per_particle) + std::size_t(freedom)]; }
     /// Puts the particles of the store back to their committed positions.
     void restore() {
         for (std::size_t k = 0; k < start_.size(); ++k) s_.store.set_position(k, start_[k]);
@@ -275,7 +302,7 @@ private:
     void list_pores() {
         pores_.clear();
         if constexpr (has_fluid<Model>) {
-            if (!s_.filled()) return;
+            if (!s_.filled() || s_.fluid.get()->network().bare()) return;
             auto const& net = s_.fluid.get()->network();
             for (std::size_t p = 0; p < net.pores(); ++p) {
                 std::array<int, corners * std::size_t(dim)> n{};
@@ -287,16 +314,22 @@ private:
         }
     }
 
-    /// Moves the particles of the store to an increment.
-    void place(vector const& u) {
-        motion_ = given_;
+    /// Moves the particles of the store to a share of an increment.
+    void place(vector const& u, double share = 1) {
         for (std::size_t k = 0; k < start_.size(); ++k) {
-            for (int f = 0; f < per_particle; ++f)
-                if (int const n = numbers_.of(k, f); n >= 0) motion_[k * std::size_t(per_particle) + std::size_t(f)] = u[n];
+            for (int f = 0; f < per_particle; ++f) {
+                auto const at = k * std::size_t(per_particle) + std::size_t(f);
+                int const n = numbers_.of(k, f);
+                motion_[at] = share * (n >= 0 ? u[n] : given_[at]);
+            }
             point x = start_[k];
             for (int axis = 0; axis < dim; ++axis) x[axis] += motion(k, axis);
             s_.store.set_position(k, x);
         }
+    }
+    /// Displacement or surface rotation of a freedom at which the forces were found last, m.
+    double motion(std::size_t k, int freedom) const noexcept {
+        return motion_[k * std::size_t(per_particle) + std::size_t(freedom)];
     }
     point shift(std::size_t k) const noexcept {
         point v{};
@@ -328,6 +361,41 @@ private:
         if (freedom < dim) return s_.store.load(k)[freedom];
         if constexpr (dim == 2) return s_.store.load(k)[2];
         return s_.store.torques().size() > 0 ? s_.store.torques().at(k, freedom - dim) : 0.0;
+    }
+    /// Adds the model's own forces at the present positions.
+    void add_own_forces(vector& to) {
+        if (!own_force_term::active(s_)) return;
+        auto& forces = s_.other_forces;
+        std::fill(forces.data(), forces.data() + 4 * forces.size(), 0.0);
+        force_step<double> step{moment{0, time_}, 0, false};
+        own_force_term::add_forces<false>(s_, step);
+        for (std::size_t k = 0; k < s_.store.size(); ++k)
+            for (int f = 0; f < per_particle; ++f)
+                if (int const n = numbers_.of(k, f); n >= 0) {
+                    std::size_t const record = dim == 2 ? k : f < dim ? 2 * k : 2 * k + 1;
+                    double const force = forces.at(record, dim == 3 && f >= dim ? f - dim : f);
+                    note(std::fabs(force));
+                    to[n] += force;
+                }
+    }
+    /// Takes the stiffness of the model's own forces as bounds of the time step do: only the part that is symmetric and
+    /// has no negative direction.
+    struct own_stiffness {
+        equilibrium_system* system; // nullptr: derivatives by the velocity, which no equilibrium has
+        template <class Matrix>
+        void add_matrix(std::size_t k, Matrix const& m) {
+            if (!system) return;
+            typename matrices::tensor stiffness;
+            for (int a = 0; a < dim; ++a)
+                for (int b = 0; b < dim; ++b) stiffness(a, b) = 0.5 * (m[std::size_t(a)][b] + m[std::size_t(b)][a]);
+            system->matrix_.add(system->own_elements_[k], without_negative_directions(stiffness));
+        }
+    };
+    void add_own_stiffness() {
+        if (own_elements_.empty()) return;
+        own_stiffness stiff{this}, viscous{nullptr};
+        if constexpr (requires { s_.own_forces.add_stiffness(s_.store, time_, stiff, viscous); })
+            s_.own_forces.add_stiffness(s_.store, time_, stiff, viscous);
     }
     void add_loads(vector& to) {
         for (std::size_t k = 0; k < s_.store.size(); ++k)
@@ -470,7 +538,8 @@ private:
     std::vector<bond_element> bonds_;
     std::vector<contact_element> contacts_;
     std::vector<pore_element> pores_;
-    double largest_ = 0;
+    std::vector<std::size_t> own_elements_; // of the model's own forces, by particle
+    double largest_ = 0, time_ = 0;
 };
 LACUNA_END_PACKS
 

@@ -88,6 +88,8 @@ public:
         for (std::size_t w = 0; w < servo_.size(); ++w)
             if (servo_[w].on) walls.set_velocity(w, walls.normal(w) * speed(walls, w, time_step));
     }
+    /// Whether a servo moves a wall.
+    bool has_servo(std::size_t w) const noexcept { return servo_[w].on != 0; }
     /// Area on which a servo's stress acts, m^2.
     template <class Walls>
     double area(Walls const& walls, std::size_t w) const {

@@ -184,7 +184,7 @@ public:
         set_spin(k, turn);
         set_position(k, position(k) + shift);
         if constexpr (Dim == 2)
-            body_.at(k, 2) += turn[0] * radius_[k];
+            record_.at(k, 2) += turn[0] * radius_[k];
         else
             rotate_orientation(k, turn);
     }

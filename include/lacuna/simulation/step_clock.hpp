@@ -48,6 +48,8 @@ public:
     void reset() noexcept { time_step_.reset(); }
     /// Call it when particles were fixed or released.
     void supports_changed() noexcept { control_.forget_forecast(); }
+    /// Call it when the state has changed by other means than steps.
+    void state_changed() noexcept { control_.update_next(); }
 
     /// Determines the length of the first step: the given step if it is stable; a share of the critical step if none is
     /// given. Does nothing if the length is known.

@@ -118,6 +118,11 @@ public:
             due_ || failed || !(approach_ + last_approach_ <= assumed_.gap) || (grows && deepest_ > assumed_.overlap);
         credit_ = std::min(credit_ + 1, 4 * price_of_wet_update);
     }
+    /// Makes an update of the limits due before the next step, whatever it costs.
+    void update_next() noexcept {
+        due_ = true;
+        credit_ = 4 * price_of_wet_update;
+    }
     /// Whether the next step must begin with an update.
     bool needs_update() const noexcept {
         return due_ && (credit_ >= price_ || (grows && deepest_ > forecast_.overlap()));
