@@ -59,6 +59,19 @@ public:
             set_given(k, axis, displacement[axis]);
         }
     }
+    /// Turns a particle whose rotation is fixed in the next solve().
+    /// \param angle rotation vector, in the plane an angle, rad
+    /// \throws std::invalid_argument for a particle whose rotation is free
+    void turn(std::size_t id, vec<double, rotation_dim<dim>> const& angle) {
+        auto const k = sim_.internal(id);
+        given_.resize(s_.store.size() * std::size_t(per_particle), 0.0);
+        for (int r = 0; r < rotation_dim<dim>; ++r) {
+            require_finite("rotation of particle " + std::to_string(id), angle[r]);
+            if (angle[r] != 0 && s_.store.mobility(k, dim) > 0)
+                refuse("rotation of particle " + std::to_string(id), angle[r], "0 where rotation is not fixed");
+            given_[k * std::size_t(per_particle) + std::size_t(dim + r)] = angle[r] * s_.store.radius(k);
+        }
+    }
     /// Displaces a wall in the next solve().
     /// \param displacement m
     void move_wall(std::size_t w, point const& displacement) {
@@ -81,19 +94,20 @@ public:
         double const radius = median_radius(s_.store.radii());
         double regularisation = parameters_.regularisation;
         int const factorised = system_.matrix().factorisations();
-        for (int idle = 0; idle < parameters_.solves && regularisation < 1e6; ++idle, ++result.solves) {
+        for (idle_ = 0; idle_ < parameters_.solves && regularisation < 1e6; ++idle_) {
+            ++result.solves;
             if (!make_increment(regularisation, 0.25 * radius, result)) {
                 regularisation *= 8;
                 continue;
             }
-            if (last_.failures > 0) idle = 0;
-            if (last_.share < 1 || last_.failures > 0) continue;
-            if (check_balance(result)) break;
+            if (last_.failures > 0) idle_ = 0;
+            if (last_.failures > 0 || given_remains()) continue;
+            if (check_balance(result) && last_.whole) break;
             if (result.displacement > parameters_.largest_motion * radius) {
                 result.outcome = equilibrium_outcome::mechanism;
                 break;
             }
-            regularisation = std::max(regularisation / 10, parameters_.regularisation);
+            regularisation = next_regularisation(regularisation, result.trials.back().displacement);
         }
         result.factorisations = system_.matrix().factorisations() - factorised;
         result.broken = events_.size();
@@ -164,6 +178,14 @@ private:
         for (std::size_t w = 0; w < s_.walls.size(); ++w) wall_velocity_.push_back(s_.walls.next_velocity(w));
     }
 
+    /// Falls by ten, but not so far that a mechanism, which moves as 1 / regularisation, would leave the lists. If solves
+    /// lead back and forth, around a state that snaps, it stays above what the turning of the pairs' forces can take
+    /// from the stiffness.
+    double next_regularisation(double now, double displacement) const {
+        double const least = idle_ > 10 ? std::max(parameters_.regularisation, turning_) : parameters_.regularisation;
+        return std::max({now / 10, least, std::min(now, now * 2 * displacement / longest_motion())});
+    }
+    bool given_remains() const noexcept { return !given_.empty() || !wall_given_.empty(); }
     /// Solves for one increment and moves the simulation by the share of it that its lists and bonds allow.
     /// \param longest displacement in one iteration, m
     /// \return whether the solve converged
@@ -175,6 +197,7 @@ private:
             system_.restore();
             return false;
         }
+        system_.hold_loose(increment_, parameters_.tolerance * system_.largest_force(), 0.5 * longest_motion());
         double const moved = system_.largest_motion(increment_);
         double part = moved > longest_motion() ? longest_motion() / moved : 1.0;
         part = system_.first_failure(increment_, part);
@@ -184,9 +207,10 @@ private:
         result.trials.push_back({regularisation, moved});
         result.displacement += part * moved;
         result.complementarity = system_.largest_product() * scales.stiffness / (system_.largest_force() * system_.largest_force());
-        last_ = {share * part, commit(part)};
+        turning_ = system_.largest_force() / (2 * median_radius(s_.store.radii()) * scales.stiffness);
+        last_ = {part == 1, commit(part)};
         if (result.trials.size() == 1 && last_.failures == 0) result.first_failure = 1;
-        reduce_given(last_.share);
+        reduce_given(share * part);
         return true;
     }
     /// \return whether the committed state is in equilibrium by the exact laws
@@ -197,7 +221,7 @@ private:
         result.unbalanced = forces.size() > 0 ? forces.lpNorm<Eigen::Infinity>() : 0.0;
         result.largest_force = system_.largest_force();
         bool const balanced = result.unbalanced <= std::max(parameters_.tolerance * result.largest_force, 4 * rounding_);
-        if (balanced) result.outcome = equilibrium_outcome::reached;
+        if (balanced && last_.whole) result.outcome = equilibrium_outcome::reached;
         return balanced;
     }
 
@@ -231,13 +255,14 @@ private:
         std::vector<double> stiffness;
         double squares = 0;
         std::size_t count = 0;
-        s_.pairs.for_each_pair_tangent(s_.store, contact_assumption{s_.pairs.remaining(), 1e-3}, [&](auto const& t) {
+        contact_assumption const near{s_.pairs.neighbors().settings().skin, 1e-3};
+        s_.pairs.for_each_pair_tangent(s_.store, near, [&](auto const& t) {
             stiffness.push_back(t.normal_stiffness);
             double const force = t.prestress * norm(s_.store.nearest(s_.store.position(t.j) - s_.store.position(t.i)));
             squares += force * force;
             count += force > 0;
         });
-        s_.walls.for_each_stiffness(s_.store, contact_assumption{0, 1e-3}, [&](std::size_t, auto const&, double k, double, double) { stiffness.push_back(k); });
+        s_.walls.for_each_stiffness(s_.store, near, [&](std::size_t, auto const&, double k, double, double) { stiffness.push_back(k); });
         if (!stiffness.empty()) {
             auto const middle = stiffness.begin() + std::ptrdiff_t(stiffness.size() / 2);
             std::nth_element(stiffness.begin(), middle, stiffness.end());
@@ -315,8 +340,10 @@ private:
     std::vector<event_type> events_;
     Eigen::VectorXd increment_;
     double rounding_ = 0;
+    double turning_ = 0; // largest force over the distance of the particles and the stiffness, 1
+    int idle_ = 0; // solves since the last bond failed
     struct {
-        double share; // of the displacements to be made
+        bool whole; // whether the simulation moved by the whole increment
         std::size_t failures;
     } last_{};
     std::vector<point> velocity_, wall_velocity_; // of the simulation, prescribed

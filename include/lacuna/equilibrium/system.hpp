@@ -124,6 +124,7 @@ public:
     /// stiffness.
     void linearise(vector const& u, vector& forces) {
         place(u);
+        carried_.assign(start_.size(), 0.0);
         matrix_.set_zero();
         forces.setZero(count());
         largest_ = 0;
@@ -134,6 +135,21 @@ public:
         for (auto& c : contacts_) add_contact(c, forces);
         if constexpr (has_fluid<Model>)
             for (auto& p : pores_) add_pore(p, forces);
+    }
+    /// Shortens the displacements of particles that carry no force, which are loose in their cages: nothing but the
+    /// barrier moved them.
+    /// \param least force that counts, N
+    /// \param longest displacement of a freedom, m
+    void hold_loose(vector& u, double least, double longest) const {
+        for (std::size_t k = 0; k < carried_.size(); ++k) {
+            if (carried_[k] > least) continue;
+            double most = 0;
+            for (int const n : numbers_.of(k))
+                if (n >= 0) most = std::max(most, std::fabs(u[n]));
+            if (!(most > longest)) continue;
+            for (int const n : numbers_.of(k))
+                if (n >= 0) u[n] *= longest / most;
+        }
     }
     /// Aims all contacts at a barrier and adds the changes of force that they ask for, N.
     void aim(double barrier, vector& forces) {
@@ -174,6 +190,7 @@ public:
     /// Forces of the exact laws on the unknowns, without barrier, N, at an increment.
     void exact_forces(vector const& u, vector& forces) {
         place(u);
+        carried_.assign(start_.size(), 0.0);
         forces.setZero(count());
         largest_ = 0;
         add_loads(forces);
@@ -246,9 +263,9 @@ private:
         typename ContactLaw::template parameters<double> const* row;
         typename ContactLaw::template history<double, dim> state;
         contact_formula<ContactLaw, dim> formula;
-        frictional_contact<dim> point;
-        pair_frame<double, dim> frame;
-        typename matrices::operators b;
+        frictional_contact<dim> point{};
+        pair_frame<double, dim> frame{};
+        typename matrices::operators b = matrices::operators::Zero();
     };
     static constexpr std::size_t corners = std::size_t(dim) + 1;
     struct pore_element {
@@ -291,7 +308,7 @@ private:
     template <class Row, class History>
     void add_contact_element(std::size_t i, std::size_t j, int wall, Row const& row, History const& state, double radius_j) {
         std::size_t const element = wall >= 0 ? matrix_.add_element(numbers_.of(i)) : add_pair(i, j);
-        contacts_.push_back({i, j, element, wall, &row, state, contact_formula<ContactLaw, dim>(row, state, s_.store.radius(i), radius_j), {}, {}, {}});
+        contacts_.push_back({i, j, element, wall, &row, state, contact_formula<ContactLaw, dim>(row, state, s_.store.radius(i), radius_j)});
     }
     std::size_t add_pair(std::size_t i, std::size_t j) {
         std::array<int, std::size_t(2 * per_particle)> n{};
@@ -375,6 +392,7 @@ private:
                     std::size_t const record = dim == 2 ? k : f < dim ? 2 * k : 2 * k + 1;
                     double const force = forces.at(record, dim == 3 && f >= dim ? f - dim : f);
                     note(std::fabs(force));
+                    carried_[k] += std::fabs(force);
                     to[n] += force;
                 }
     }
@@ -403,6 +421,7 @@ private:
                 if (int const n = numbers_.of(k, f); n >= 0) {
                     double const force = load(k, f);
                     note(std::fabs(force));
+                    carried_[k] += std::fabs(force);
                     to[n] += force;
                 }
     }
@@ -414,11 +433,13 @@ private:
     }
     void add_bond(bond_element const& b, vector& forces) {
         auto const frame = pair_frame_of(b.i, b.j);
-        auto const rotation = rotation_of(b, frame);
+        auto const turn = rotation_of(b, frame);
         auto const state = detail::turned<BondLaw, dim>(b.state, frame);
-        auto const f = evaluate_bond<BondLaw, dim>(*b.row, frame, rotation, state);
-        auto const k = bond_tangent<BondLaw, dim>(*b.row, frame, rotation, state);
+        auto const f = evaluate_bond<BondLaw, dim>(*b.row, frame, turn, state);
+        auto const k = bond_tangent<BondLaw, dim>(*b.row, frame, turn, state);
         note(f.force.norm());
+        carried_[b.i] += f.force.norm();
+        carried_[b.j] += f.force.norm();
         scatter_bond(b, f, forces);
         using forces_type = bond_forces<BondLaw, dim>;
         Eigen::Matrix<double, forces_type::strains, matrices::freedoms> op;
@@ -459,6 +480,8 @@ private:
         c.point.linearise(c.frame.motion.distance - c.formula.touching_distance(), c.frame.motion.slip, before, normal);
         typename matrices::point const now = matrices::force(c.frame, -c.point.force(), c.point.shear_force());
         note(now.norm());
+        carried_[c.i] += now.norm();
+        if (c.wall < 0) carried_[c.j] += now.norm();
         scatter(c, now, 1.0, forces);
         auto const n = matrices::to_eigen(c.frame.normal);
         typename matrices::tensor k = n * n.transpose() * c.point.weight();
@@ -514,7 +537,9 @@ private:
     void scatter_pore(pore_element const& p, pore_state const& state, vector& to) {
         auto const& net = s_.fluid.get()->network();
         for (std::size_t c = 0; c < corners; ++c) {
-            note(norm(state.traction[c]) * std::fabs(state.pressure));
+            double const force = norm(state.traction[c]) * std::fabs(state.pressure);
+            note(force);
+            carried_[std::size_t(net.corner[c][p.pore])] += force;
             for (int axis = 0; axis < dim; ++axis)
                 if (int const n = numbers_.of(std::size_t(net.corner[c][p.pore]), axis); n >= 0) to[n] += state.traction[c][axis] * state.pressure;
         }
@@ -534,6 +559,7 @@ private:
     stiffness_matrix matrix_;
     bool drained_ = false;
     std::vector<double> given_, motion_; // of all freedoms, m
+    std::vector<double> carried_;        // sum of the sizes of the forces on each particle, N
     std::vector<point> wall_motion_, start_;
     std::vector<bond_element> bonds_;
     std::vector<contact_element> contacts_;
