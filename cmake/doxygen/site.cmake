@@ -177,7 +177,7 @@ foreach(part IN ITEMS MathJax.js extensions jax/element jax/input/TeX jax/output
 endforeach()
 
 foreach(page IN ITEMS index install units restart paraview lacuna_run deck_keys cartilage uniaxial poroelasticity
-    tutorial ${tutorials} motion contacts bonds flow time_step how_a_step_works decisions other_codes validation benches
+    tutorial ${tutorials} motion contacts bonds flow time_step equilibrium how_a_step_works decisions other_codes validation benches
     limits)
   if(NOT EXISTS "${OUT}/html/${page}.html")
     message(FATAL_ERROR "there is no page ${page}.html")
@@ -192,7 +192,7 @@ foreach(entry IN LISTS entries)
   string(APPEND found "${text}")
 endforeach()
 foreach(word IN ITEMS restart units paraview install tutorial deck_20keys cartilage
-    checkpoint_5fevery bonds tests speed)
+    checkpoint_5fevery bonds tests speed equilibrium)
   if(NOT found MATCHES "\n  \\['${word}")
     message(FATAL_ERROR "a search for '${word}' finds nothing")
   endif()

@@ -2,14 +2,17 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <vector>
+
+#include <Eigen/Core>
 
 #include <lacuna/equilibrium/interior_point.hpp>
 #include <lacuna/equilibrium/parameters.hpp>
@@ -55,7 +58,8 @@ public:
             require_finite("displacement of particle " + std::to_string(id), displacement[axis]);
             if (displacement[axis] == 0) continue;
             if (numbers.of(k, axis) >= 0)
-                refuse("displacement of particle " + std::to_string(id), displacement[axis], "0 along an axis along which it is not fixed");
+                refuse("displacement of particle " + std::to_string(id), displacement[axis],
+                       "0 along an axis along which it is not fixed");
             set_given(k, axis, displacement[axis]);
         }
     }
@@ -76,7 +80,8 @@ public:
     /// \param displacement m
     void move_wall(std::size_t w, point const& displacement) {
         require_in("wall", double(w), 0, double(s_.walls.size()) - 1);
-        for (int axis = 0; axis < dim; ++axis) require_finite("displacement of wall " + std::to_string(w), displacement[axis]);
+        for (int axis = 0; axis < dim; ++axis)
+            require_finite("displacement of wall " + std::to_string(w), displacement[axis]);
         wall_given_.resize(s_.walls.size());
         wall_given_[w] = displacement;
     }
@@ -125,13 +130,14 @@ private:
         given_[k * std::size_t(per_particle) + std::size_t(axis)] = value;
         for (std::size_t g = 0; g < s_.plates.size(); ++g) {
             auto const members = s_.plates.members(g);
-            if (s_.plates.axis(g) != axis || !std::binary_search(members.begin(), members.end(), std::uint32_t(k))) continue;
+            if (s_.plates.axis(g) != axis || !std::binary_search(members.begin(), members.end(), std::uint32_t(k)))
+                continue;
             for (auto const m : members) given_[m * std::size_t(per_particle) + std::size_t(axis)] = value;
         }
     }
 
-    /// Refuses what no equilibrium knows. Brings histories and lists up to date with the positions of the last step, and
-    /// the particles to rest.
+    /// Refuses what no equilibrium knows. Brings histories and lists up to date with the positions of the last step,
+    /// and the particles to rest.
     void begin() {
         if constexpr (has_fluid<Model>) {
             if (!s_.filled())
@@ -140,7 +146,8 @@ private:
                 refuse("flow.merge_conductance", merged, "infinite for an equilibrium");
         }
         for (std::size_t w = 0; w < s_.walls.size(); ++w)
-            if (s_.wall_motions.has_servo(w)) refuse("wall " + std::to_string(w), "moved by a servo", "still for an equilibrium");
+            if (s_.wall_motions.has_servo(w))
+                refuse("wall " + std::to_string(w), "moved by a servo", "still for an equilibrium");
         events_.clear();
         remember_prescribed();
         double const last = sim_.clock_.step() > 0 ? sim_.clock_.previous_step() : 0.0;
@@ -206,7 +213,8 @@ private:
         if (least) result.regularisation = regularisation;
         result.trials.push_back({regularisation, moved});
         result.displacement += part * moved;
-        result.complementarity = system_.largest_product() * scales.stiffness / (system_.largest_force() * system_.largest_force());
+        result.complementarity =
+            system_.largest_product() * scales.stiffness / (system_.largest_force() * system_.largest_force());
         turning_ = system_.largest_force() / (2 * median_radius(s_.store.radii()) * scales.stiffness);
         last_ = {part == 1, commit(part)};
         if (result.trials.size() == 1 && last_.failures == 0) result.first_failure = 1;
@@ -220,7 +228,8 @@ private:
         system_.exact_forces(Eigen::VectorXd::Zero(system_.count()), forces);
         result.unbalanced = forces.size() > 0 ? forces.lpNorm<Eigen::Infinity>() : 0.0;
         result.largest_force = system_.largest_force();
-        bool const balanced = result.unbalanced <= std::max(parameters_.tolerance * result.largest_force, 4 * rounding_);
+        bool const balanced =
+            result.unbalanced <= std::max(parameters_.tolerance * result.largest_force, 4 * rounding_);
         if (balanced && last_.whole) result.outcome = equilibrium_outcome::reached;
         return balanced;
     }
@@ -262,7 +271,9 @@ private:
             squares += force * force;
             count += force > 0;
         });
-        s_.walls.for_each_stiffness(s_.store, near, [&](std::size_t, auto const&, double k, double, double) { stiffness.push_back(k); });
+        s_.walls.for_each_stiffness(
+            s_.store, near,
+            [&](std::size_t, auto const&, double k, double, double) { stiffness.push_back(k); });
         if (!stiffness.empty()) {
             auto const middle = stiffness.begin() + std::ptrdiff_t(stiffness.size() / 2);
             std::nth_element(stiffness.begin(), middle, stiffness.end());

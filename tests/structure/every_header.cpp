@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// A consumer with all warnings on: it includes all usable headers (every_header.hpp) and simulates several models.
+// A consumer with all warnings on: it includes all usable headers (every_header.hpp), simulates several models and
+// brings some to equilibrium.
 
 #include "every_header.hpp"
 
 #ifdef CONSUMER_HAS_ALL_HEADERS
 
 #include <cstdio>
+#include <type_traits>
 
 template <int Dim, class Real, class Flow>
 struct wet : lacuna::default_model<Dim, Real> {
     using flow = Flow;
     using contact_law = lacuna::hertz_mindlin;
+    using bond_law = lacuna::parallel_bond;
 };
 template <int Dim, class Real>
 struct dry : lacuna::default_model<Dim, Real> {};
@@ -35,6 +38,8 @@ void use() {
     sim.run(3, cracks, frames);
     lacuna::save_checkpoint("checkpoint.bin", sim, cracks);
     lacuna::load_checkpoint("checkpoint.bin", sim, cracks);
+    if constexpr (std::is_same_v<typename Model::real, double> && !lacuna::carries_moment<typename Model::contact_law>)
+        std::printf("%g\n", lacuna::equilibrium<Model>(sim).solve().unbalanced);
     std::printf("%g %g\n", sim.time(), sim.limits().critical());
 }
 

@@ -7,7 +7,9 @@
 
 #include <lacuna/core/dual.hpp>
 #include <lacuna/core/fields.hpp>
+#include <lacuna/core/vec.hpp>
 #include <lacuna/equilibrium/pair_operator.hpp>
+#include <lacuna/interactions/kinematics.hpp>
 #include <lacuna/laws/law_concepts.hpp>
 #include <lacuna/laws/pair_motion.hpp>
 
@@ -78,7 +80,8 @@ bond_forces<Law, Dim> evaluate_bond(P const& parameters, pair_frame<double, Dim>
 /// directions.
 template <class Law, int Dim, class P, class H>
 typename bond_forces<Law, Dim>::tangent_matrix bond_tangent(P const& parameters, pair_frame<double, Dim> const& frame,
-                                                            pair_rotation<double, Dim> const& rotation, H const& state) {
+                                                            pair_rotation<double, Dim> const& rotation,
+                                                            H const& state) {
     using forces = bond_forces<Law, Dim>;
     constexpr int strains = forces::strains, rotations = rotation_dim<Dim>;
     using number = dual<double, strains>;
@@ -114,7 +117,8 @@ typename bond_forces<Law, Dim>::tangent_matrix bond_tangent(P const& parameters,
     for (int v = 0; v < strains; ++v) {
         vec<double, shear_dim<Dim>> shear{};
         for (int s = 0; s < shear_dim<Dim>; ++s) shear[s] = answer.shear_force[s].derivative[v];
-        change.template block<Dim, 1>(0, v) = pair_matrices<Dim>::force(frame, answer.normal_force.derivative[v], shear);
+        change.template block<Dim, 1>(0, v) =
+            pair_matrices<Dim>::force(frame, answer.normal_force.derivative[v], shear);
         if constexpr (forces::bends)
             for (int r = 0; r < rotations; ++r)
                 change(Dim + r, v) = answer.bending_moment[r].derivative[v] +

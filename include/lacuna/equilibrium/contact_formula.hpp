@@ -2,13 +2,14 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <string>
 
 #include <lacuna/core/dual.hpp>
 #include <lacuna/core/error.hpp>
 #include <lacuna/core/fields.hpp>
+#include <lacuna/core/text.hpp>
+#include <lacuna/core/vec.hpp>
 #include <lacuna/laws/law_concepts.hpp>
 #include <lacuna/laws/pair_motion.hpp>
 
@@ -65,15 +66,19 @@ private:
         auto m = motion<number>(number::variable(touching_ - overlap, 0));
         m.slip[0] = number::variable(0, 1);
         auto const constant = [](double x) { return number(x); };
-        auto const answer = Law::evaluate(convert_fields<number, double, typename Law::template parameters<number>>(parameters_, constant), m,
-                                          convert_fields<number, double, typename Law::template history<number, Dim>>(history_, constant));
-        return {-answer.normal_force.value, answer.normal_force.derivative[0], std::fabs(answer.shear_force[0].derivative[1])};
+        auto const answer = Law::evaluate(
+            convert_fields<number, double, typename Law::template parameters<number>>(parameters_, constant), m,
+            convert_fields<number, double, typename Law::template history<number, Dim>>(history_, constant));
+        return {-answer.normal_force.value, answer.normal_force.derivative[0],
+                std::fabs(answer.shear_force[0].derivative[1])};
     }
     template <class T>
     pair_motion<T, Dim> motion(T const& distance) const {
         return {distance, T(radius_i_), T(radius_j_), {}, T(0)};
     }
-    double force(double overlap) const { return -Law::evaluate(parameters_, motion(touching_ - overlap), history_).normal_force; }
+    double force(double overlap) const {
+        return -Law::evaluate(parameters_, motion(touching_ - overlap), history_).normal_force;
+    }
 
     /// Overlap up to which the law answers no force, m: that of an earlier, deeper contact.
     double dent(double radius) const {
@@ -82,7 +87,8 @@ private:
             none = some;
             some *= 2;
             if (some > radius)
-                refuse("contact law", "no force at an overlap of the whole radius", "a force that grows with the overlap");
+                refuse("contact law", "no force at an overlap of the whole radius",
+                       "a force that grows with the overlap");
         }
         if (none == 0) return 0;
         for (int n = 0; n < 80; ++n) {
@@ -97,8 +103,9 @@ private:
         for (double const share : {1e-6, 1e-5, 1e-4, 1e-3, 3e-3, 0.01, 0.03, 0.1}) {
             double const overlap = share * radius, now = force(overlap);
             if (!(now > before))
-                refuse("contact law", "a force of " + to_text(before) + " N at an overlap of " + to_text(shallower) + " m and " +
-                                          to_text(now) + " N at " + to_text(overlap) + " m",
+                refuse("contact law",
+                       "a force of " + to_text(before) + " N at an overlap of " + to_text(shallower) + " m and " +
+                           to_text(now) + " N at " + to_text(overlap) + " m",
                        "a force that grows with the overlap, for an equilibrium");
             shallower = overlap;
             before = now;

@@ -8,6 +8,8 @@
 #include <Eigen/Core>
 #include <Eigen/QR>
 
+#include <lacuna/core/standard.hpp>
+
 namespace lacuna {
 
 /// Solves A x = b for a matrix that is nearly one that can be factorised, by the generalised minimal residual method of
@@ -18,7 +20,8 @@ namespace lacuna {
 /// \param most largest number of iterations
 /// \return the best x found
 template <class Product, class Precondition>
-Eigen::VectorXd solve_coupled(Eigen::VectorXd const& b, Product const& product, Precondition const& precondition, double tolerance, int most) {
+Eigen::VectorXd solve_coupled(Eigen::VectorXd const& b, Product const& product, Precondition const& precondition,
+                              double tolerance, int most) {
     Eigen::VectorXd const first = precondition(b);
     double const size = first.norm();
     if (!(size > 0) || most < 1) return first;

@@ -86,7 +86,8 @@ public:
     shear follow() const noexcept { return rough() ? follow_ : shear{}; }
     /// Change of the shear force for a change of the slip, N, at constant normal force.
     shear soften(shear const& slip) const noexcept {
-        return (slip - shear_ * (bend_ * dot(shear_, slip) / (flexibility_ + bend_ * squared_norm(shear_)))) / flexibility_;
+        return (slip - shear_ * (bend_ * dot(shear_, slip) / (flexibility_ + bend_ * squared_norm(shear_)))) /
+               flexibility_;
     }
 
     /// Finds the changes of the contact's unknowns from those of the distance and the slip.
@@ -97,10 +98,14 @@ public:
         if (!rough()) return;
         shear_step_ = soften(slip) + pull_ + follow_ * force_step_;
         double const c = cone();
-        sliding_step_ = (barrier_ - sliding_ * c - 2 * sliding_ * friction_ * friction_ * force_ * force_step_ + 2 * sliding_ * dot(shear_, shear_step_)) / c;
+        sliding_step_ = (barrier_ - sliding_ * c -
+                         2 * sliding_ * friction_ * friction_ * force_ * force_step_ +
+                         2 * sliding_ * dot(shear_, shear_step_)) / c;
     }
     /// Largest share of the step, at most 1, that leaves spring and gap positive.
-    double longest_step() const noexcept { return std::min({1.0, room(overlap_, overlap_step_), room(gap_, gap_step_)}); }
+    double longest_step() const noexcept {
+        return std::min({1.0, room(overlap_, overlap_step_), room(gap_, gap_step_)});
+    }
     /// Makes a share of the step. Friction takes a smaller share where its limit is closer: a contact that is about to
     /// slide must not stop all others.
     template <class Formula>
@@ -153,7 +158,8 @@ private:
     static double find_overlap(Formula const& formula, double overlap, double barrier) {
         double low = std::max(overlap, 0.0), high = std::max(low, std::numeric_limits<double>::min());
         auto const excess = [&](double o) { return formula.at(o).force * (o - overlap) - barrier; };
-        double width = std::sqrt(barrier / std::max(formula.at(std::max(low, 1e-6 * formula.touching_distance())).stiffness, 1e-300));
+        double width = std::sqrt(
+            barrier / std::max(formula.at(std::max(low, 1e-6 * formula.touching_distance())).stiffness, 1e-300));
         for (high = low + width; excess(high) < 0; width *= 2) high = low + width;
         double o = high;
         for (int n = 0; n < 60; ++n) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -32,7 +33,8 @@ struct equilibrium_parameters {
     /// \throws std::invalid_argument naming field, value and rule
     void validate(std::string const& name) const {
         if (!(tolerance > 0 && tolerance <= 0.1)) refuse(name + ".tolerance", tolerance, "> 0 and <= 0.1");
-        if (!(regularisation > 0 && regularisation <= 1e-3)) refuse(name + ".regularisation", regularisation, "> 0 and <= 1e-3");
+        if (!(regularisation > 0 && regularisation <= 1e-3))
+            refuse(name + ".regularisation", regularisation, "> 0 and <= 1e-3");
         require_positive(name + ".largest_motion", largest_motion);
         require_in(name + ".iterations", iterations, 1, 1e6);
         require_in(name + ".solves", solves, 1, 1e6);

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include <Eigen/Core>
-#include <Eigen/SparseCholesky>
-#include <Eigen/SparseCore>
+
+#include <lacuna/core/eigen_sparse.hpp>
 
 namespace lacuna {
 

@@ -96,7 +96,7 @@ public:
     void start_contacts(double barrier) {
         place(vector::Zero(count()));
         for (auto& c : contacts_) {
-            auto const frame = c.wall >= 0 ? wall_frame(c) : pair_frame_of(c.i, c.j);
+            auto const frame = c.at_wall() ? wall_frame(c) : pair_frame_of(c.i, c.j);
             typename frictional_contact<dim>::shear shear{};
             if constexpr (requires { c.state.shear_force; }) shear = c.state.shear_force;
             c.point.start(c.formula, c.formula.touching_distance() - frame.motion.distance, shear, barrier);
@@ -201,8 +201,9 @@ public:
             scatter_bond(b, f, forces);
         }
         for (auto& c : contacts_) {
-            c.frame = c.wall >= 0 ? wall_frame(c) : pair_frame_of(c.i, c.j);
-            auto const answer = ContactLaw::evaluate(*c.row, c.frame.motion, detail::turned<ContactLaw, dim>(c.state, c.frame));
+            c.frame = c.at_wall() ? wall_frame(c) : pair_frame_of(c.i, c.j);
+            auto const answer =
+                ContactLaw::evaluate(*c.row, c.frame.motion, detail::turned<ContactLaw, dim>(c.state, c.frame));
             c.b = matrices::relative_displacement(c.frame);
             typename matrices::point const f = matrices::force(c.frame, answer.normal_force, answer.shear_force);
             note(f.norm());
@@ -222,7 +223,8 @@ public:
         for (int n = 0; n < 40; ++n) {
             double const middle = 0.5 * (low + high);
             place(u, middle);
-            bool const fails = std::any_of(failing.begin(), failing.end(), [&](auto const* b) { return evaluate(*b).broken; });
+            bool const fails =
+                std::any_of(failing.begin(), failing.end(), [&](auto const* b) { return evaluate(*b).broken; });
             (fails ? high : low) = middle;
         }
         // A little further, so that rounding in another order does not save the bond.
@@ -266,6 +268,7 @@ private:
         frictional_contact<dim> point{};
         pair_frame<double, dim> frame{};
         typename matrices::operators b = matrices::operators::Zero();
+        bool at_wall() const noexcept { return wall >= 0; }
     };
     static constexpr std::size_t corners = std::size_t(dim) + 1;
     struct pore_element {
@@ -283,8 +286,9 @@ private:
             for (std::size_t slot = 0; slot < table.slots(); ++slot) {
                 if (table.is_padding(slot, s_.store.size())) continue;
                 auto const entry = table.get(slot);
-                bonds_.push_back({std::size_t(entry.i), std::size_t(entry.j), add_pair(std::size_t(entry.i), std::size_t(entry.j)),
-                                  entry.label, &s_.pairs.bond_parameters().row[std::size_t(entry.parameter)], entry.state});
+                bonds_.push_back({std::size_t(entry.i), std::size_t(entry.j),
+                                  add_pair(std::size_t(entry.i), std::size_t(entry.j)), entry.label,
+                                  &s_.pairs.bond_parameters().row[std::size_t(entry.parameter)], entry.state});
             }
         }
     }
@@ -297,8 +301,8 @@ private:
                 for (std::size_t slot = table.first_slot(c), end = slot + table.chunk_size(c); slot < end; ++slot) {
                     auto const entry = table.get(slot);
                     auto const i = std::size_t(entry.i), j = std::size_t(entry.j);
-                    add_contact_element(i, j, -1, s_.pairs.contact_parameters().row[std::size_t(entry.parameter)], entry.state,
-                                        s_.store.radius(j));
+                    add_contact_element(i, j, -1, s_.pairs.contact_parameters().row[std::size_t(entry.parameter)],
+                                        entry.state, s_.store.radius(j));
                 }
             s_.walls.for_each_listed([&](std::size_t w, std::size_t k, auto const& state) {
                 add_contact_element(k, k, int(w), s_.walls.parameters(w, std::size_t(s_.store.material(k))), state, 0);
@@ -306,9 +310,11 @@ private:
         }
     }
     template <class Row, class History>
-    void add_contact_element(std::size_t i, std::size_t j, int wall, Row const& row, History const& state, double radius_j) {
+    void add_contact_element(std::size_t i, std::size_t j, int wall, Row const& row, History const& state,
+                             double radius_j) {
         std::size_t const element = wall >= 0 ? matrix_.add_element(numbers_.of(i)) : add_pair(i, j);
-        contacts_.push_back({i, j, element, wall, &row, state, contact_formula<ContactLaw, dim>(row, state, s_.store.radius(i), radius_j)});
+        contacts_.push_back({i, j, element, wall, &row, state,
+                             contact_formula<ContactLaw, dim>(row, state, s_.store.radius(i), radius_j)});
     }
     std::size_t add_pair(std::size_t i, std::size_t j) {
         std::array<int, std::size_t(2 * per_particle)> n{};
@@ -360,9 +366,10 @@ private:
     }
     pair_frame<double, dim> pair_frame_of(std::size_t i, std::size_t j) const {
         double const ri = s_.store.radius(i), rj = s_.store.radius(j);
-        return relative_motion(relative_state<double, dim>{s_.store.nearest(s_.store.position(j) - s_.store.position(i)),
-                                                           shift(j) - shift(i), surface(i) + surface(j), ri + rj, ri, rj},
-                               1.0);
+        return relative_motion(
+            relative_state<double, dim>{s_.store.nearest(s_.store.position(j) - s_.store.position(i)),
+                                        shift(j) - shift(i), surface(i) + surface(j), ri + rj, ri, rj},
+            1.0);
     }
     pair_frame<double, dim> wall_frame(contact_element const& c) const {
         double const r = s_.store.radius(c.i);
@@ -429,7 +436,8 @@ private:
 
     bond_forces<BondLaw, dim> evaluate(bond_element const& b) const {
         auto const frame = pair_frame_of(b.i, b.j);
-        return evaluate_bond<BondLaw, dim>(*b.row, frame, rotation_of(b, frame), detail::turned<BondLaw, dim>(b.state, frame));
+        return evaluate_bond<BondLaw, dim>(*b.row, frame, rotation_of(b, frame),
+                                           detail::turned<BondLaw, dim>(b.state, frame));
     }
     void add_bond(bond_element const& b, vector& forces) {
         auto const frame = pair_frame_of(b.i, b.j);
@@ -445,20 +453,23 @@ private:
         Eigen::Matrix<double, forces_type::strains, matrices::freedoms> op;
         op.template topRows<dim>() = matrices::relative_displacement(frame);
         if constexpr (forces_type::bends)
-            op.template bottomRows<rotation_dim<dim>>() = matrices::relative_rotation(s_.store.radius(b.i), s_.store.radius(b.j));
+            op.template bottomRows<rotation_dim<dim>>() =
+                matrices::relative_rotation(s_.store.radius(b.i), s_.store.radius(b.j));
         typename matrices::element stiffness = op.transpose() * k * op;
         if (f.normal_force > 0) {
             // A taut bond resists a turn of its normal.
             auto const centres = matrices::relative_centres();
             auto const n = matrices::to_eigen(frame.normal);
-            typename matrices::tensor const across = (matrices::tensor::Identity() - n * n.transpose()) * (f.normal_force / frame.motion.distance);
+            typename matrices::tensor const across =
+                (matrices::tensor::Identity() - n * n.transpose()) * (f.normal_force / frame.motion.distance);
             stiffness += centres.transpose() * across * centres;
         }
         matrix_.add(b.element, stiffness);
     }
     void scatter_bond(bond_element const& b, bond_forces<BondLaw, dim> const& f, vector& to) const {
         auto const frame = pair_frame_of(b.i, b.j);
-        Eigen::Matrix<double, matrices::freedoms, 1> all = -(matrices::relative_displacement(frame).transpose() * f.force);
+        Eigen::Matrix<double, matrices::freedoms, 1> all =
+            -(matrices::relative_displacement(frame).transpose() * f.force);
         if constexpr (bond_forces<BondLaw, dim>::bends)
             all -= matrices::relative_rotation(s_.store.radius(b.i), s_.store.radius(b.j)).transpose() * f.moment;
         scatter_pair(b.i, b.j, all, to);
@@ -472,10 +483,11 @@ private:
     }
 
     void add_contact(contact_element& c, vector& forces) {
-        c.frame = c.wall >= 0 ? wall_frame(c) : pair_frame_of(c.i, c.j);
+        c.frame = c.at_wall() ? wall_frame(c) : pair_frame_of(c.i, c.j);
         c.b = matrices::relative_displacement(c.frame);
         typename frictional_contact<dim>::shear before{}, normal{};
-        if constexpr (requires { c.state.shear_force; }) before = detail::turned<ContactLaw, dim>(c.state, c.frame).shear_force;
+        if constexpr (requires { c.state.shear_force; })
+            before = detail::turned<ContactLaw, dim>(c.state, c.frame).shear_force;
         if constexpr (dim == 3) normal = c.frame.normal;
         c.point.linearise(c.frame.motion.distance - c.formula.touching_distance(), c.frame.motion.slip, before, normal);
         typename matrices::point const now = matrices::force(c.frame, -c.point.force(), c.point.shear_force());
@@ -492,7 +504,7 @@ private:
                 k += matrices::force(c.frame, 0, c.point.soften(matrices::slip(c.frame, along))) * along.transpose();
             }
         }
-        if (c.wall >= 0) {
+        if (c.at_wall()) {
             auto const half = c.b.template leftCols<per_particle>();
             matrix_.add(c.element, (half.transpose() * k * half).eval());
         } else {
@@ -502,7 +514,7 @@ private:
     /// Adds `sign` times the forces on the unknowns for a force on i.
     void scatter(contact_element const& c, typename matrices::point const& force, double sign, vector& to) const {
         Eigen::Matrix<double, matrices::freedoms, 1> const all = -sign * (c.b.transpose() * force);
-        if (c.wall < 0) return scatter_pair(c.i, c.j, all, to);
+        if (!c.at_wall()) return scatter_pair(c.i, c.j, all, to);
         for (int f = 0; f < per_particle; ++f)
             if (int const n = numbers_.of(c.i, f); n >= 0) to[n] += all[f];
     }
@@ -511,7 +523,7 @@ private:
         Eigen::Matrix<double, matrices::freedoms, 1> local = Eigen::Matrix<double, matrices::freedoms, 1>::Zero();
         for (int f = 0; f < per_particle; ++f) {
             if (int const n = numbers_.of(c.i, f); n >= 0) local[f] = du[n];
-            if (c.wall < 0)
+            if (!c.at_wall())
                 if (int const n = numbers_.of(c.j, f); n >= 0) local[per_particle + f] = du[n];
         }
         return c.b * local;
@@ -528,7 +540,8 @@ private:
         if (!now.open) {
             state.pressure = 0;
         } else if (!drained_) {
-            auto const sealed = sealed_pressure(flow.settings(), net.pressure[p.pore], net.old_volume[p.pore], net.vapour_of(p.pore), now.volume);
+            auto const sealed = sealed_pressure(flow.settings(), net.pressure[p.pore], net.old_volume[p.pore],
+                                                net.vapour_of(p.pore), now.volume);
             state.pressure = sealed.pressure;
             state.stiffness = sealed.stiffness;
         }
@@ -541,7 +554,8 @@ private:
             note(force);
             carried_[std::size_t(net.corner[c][p.pore])] += force;
             for (int axis = 0; axis < dim; ++axis)
-                if (int const n = numbers_.of(std::size_t(net.corner[c][p.pore]), axis); n >= 0) to[n] += state.traction[c][axis] * state.pressure;
+                if (int const n = numbers_.of(std::size_t(net.corner[c][p.pore]), axis); n >= 0)
+                    to[n] += state.traction[c][axis] * state.pressure;
         }
     }
     void add_pore(pore_element const& p, vector& forces) {

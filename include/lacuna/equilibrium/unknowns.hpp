@@ -5,8 +5,6 @@
 #include <span>
 #include <vector>
 
-#include <Eigen/Core>
-
 #include <lacuna/core/vec.hpp>
 #include <lacuna/loads/rigid_plates.hpp>
 #include <lacuna/particles/store.hpp>
@@ -48,7 +46,9 @@ public:
 
     int count() const noexcept { return count_; }
     /// Number of a freedom's unknown; -1: the freedom is held.
-    int of(std::size_t particle, int freedom) const noexcept { return index_[particle * per_particle + std::size_t(freedom)]; }
+    int of(std::size_t particle, int freedom) const noexcept {
+        return index_[particle * per_particle + std::size_t(freedom)];
+    }
     /// The numbers of a particle's freedoms.
     std::span<int const> of(std::size_t particle) const noexcept {
         return std::span(index_).subspan(particle * per_particle, per_particle);

@@ -152,8 +152,8 @@ public:
         return beyond;
     }
 
-    /// Calls visit(number of the wall, internal index, history) for the listed particles: those that touch a wall or may
-    /// soon.
+    /// Calls visit(number of the wall, internal index, history) for the listed particles: those that touch a wall or
+    /// may soon.
     template <class Visit>
     void for_each_listed(Visit const& visit) const {
         for (auto const& n : near_) visit(n.plane, n.particle, n.state);
@@ -311,8 +311,8 @@ private:
             if (-overlap <= assumed.gap) use(n, double(still.radius_i), distance, overlap);
         }
     }
-    /// Frame of a particle and its foot point on a wall. The foot point follows the particle along the wall, so the pair
-    /// never rotates: the slip is the motion of the particle relative to the plane.
+    /// Frame of a particle and its foot point on a wall. The foot point follows the particle along the wall, so the
+    /// pair never rotates: the slip is the motion of the particle relative to the plane.
     pair_frame<Real, Dim> frame_at(std::size_t w, body<Real, Dim> const& i, vec<Real, Dim> const& wall_velocity,
                                    Real distance, Real time_step) const {
         vec<Real, Dim> normal{};

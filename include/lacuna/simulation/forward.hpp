@@ -4,8 +4,8 @@
 #include <lacuna/core/pack.hpp>
 
 /// \file
-/// Declares lacuna::simulation and lacuna::equilibrium, for headers that only name it. Do not declare it by hand: LACUNA_BEGIN_PACKS
-/// opens an inner namespace, so that a declaration without it names a different class.
+/// Declares lacuna::simulation and lacuna::equilibrium, for headers that only name them. Do not declare them by hand:
+/// LACUNA_BEGIN_PACKS opens an inner namespace, so that a declaration without it names a different class.
 
 namespace lacuna {
 

@@ -153,8 +153,9 @@ public:
         for (std::size_t p = 0; p < network_.pores(); ++p) {
             Real const now = pore_geometry(p, points, radii).volume;
             if (sealed) {
-                auto const filled = sealed_pressure(parameters_, double(network_.pressure[p]), double(network_.old_volume[p]),
-                                                    double(network_.vapour_of(p)), double(now));
+                auto const filled =
+                    sealed_pressure(parameters_, double(network_.pressure[p]), double(network_.old_volume[p]),
+                                    double(network_.vapour_of(p)), double(now));
                 network_.pressure[p] = Real(filled.pressure);
                 if (!network_.vapour.empty()) network_.vapour[p] = Real(filled.vapour);
             }

@@ -21,11 +21,13 @@ struct sealed_response {
 /// \param pressure, volume, vapour before; Pa, m^3
 /// \param now new volume, m^3, > 0
 template <class Parameters>
-sealed_response sealed_pressure(Parameters const& p, double pressure, double volume, double vapour, double now) noexcept {
+sealed_response sealed_pressure(Parameters const& p, double pressure, double volume, double vapour,
+                                double now) noexcept {
     double const liquid = volume - vapour;
     double const wanted = pressure + p.bulk_modulus * std::log(liquid / now);
     if (wanted >= p.minimum_pressure) return {wanted, p.bulk_modulus / now, 0};
-    return {p.minimum_pressure, 0, std::max(now - liquid * std::exp((pressure - p.minimum_pressure) / p.bulk_modulus), 0.0)};
+    return {p.minimum_pressure, 0,
+            std::max(now - liquid * std::exp((pressure - p.minimum_pressure) / p.bulk_modulus), 0.0)};
 }
 
 } // namespace lacuna
