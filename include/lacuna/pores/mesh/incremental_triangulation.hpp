@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <lacuna/pores/mesh/exact_signs.hpp>
+#include <lacuna/pores/mesh/mesh.hpp>
 
 namespace lacuna::detail {
 
@@ -111,7 +112,7 @@ private:
         unmatched_side one{{}, t, std::int32_t(corner)};
         auto const& s = cell_[std::size_t(t)].corner;
         for (std::size_t c = 0; c + 1 < corners; ++c) one.sites[c] = s[c < corner ? c : c + 1];
-        std::sort(one.sites.begin(), one.sites.end());
+        sort_corners(one.sites);
         return one;
     }
     /// Makes neighbours of the cells whose sides have the same sites.

@@ -156,7 +156,7 @@ private:
             for (std::size_t c = 0; c < dim; ++c) {
                 ridge one{{}, f, c};
                 for (std::size_t k = 0; k + 1 < dim; ++k) one.sites[k] = sides[f][k < c ? k : k + 1];
-                std::sort(one.sites.begin(), one.sites.end());
+                sort_corners(one.sites);
                 ridges.push_back(one);
             }
         std::sort(ridges.begin(), ridges.end());
