@@ -11,6 +11,7 @@
 #include <vector>
 
 #include <lacuna/pores/mesh/no_pores.hpp>
+#include <lacuna/pores/mesh/wide_number.hpp>
 #include <lacuna/pores/network/pore_network.hpp>
 #include <lacuna/pores/mesh/triangulation.hpp>
 
@@ -256,6 +257,178 @@ TEST_CASE("radii from 1 to 1e-4, small ones upon large ones: the same simplices 
             REQUIRE(sorted_corners(discs.mesh()) == try_all(discs));
             REQUIRE(sorted_corners(spheres.mesh()) == try_all(spheres));
         }
+}
+
+TEST_CASE("a disc just inside a straight side of the hull is on it, however far another disc is") {
+    // The sides to the disc in the middle bend inwards by twice this share of a diameter: the triangle of all three
+    // belongs to the hull.
+    for (double const inwards : {1e-6, 1e-7, 1e-8, 3e-9, 1e-9, 2e-10})
+        for (double const far : {10.0, 1e4, 1e6, 2e6, 5e6, 1e7, 1e8, 1e10}) {
+            body<2> b;
+            b.add({0, 0});
+            b.add({1, inwards});
+            b.add({2, 0});
+            b.add({0.5, 0.9});
+            b.add({1.5, 0.9});
+            b.add({0.3 * far, far});
+            auto const all = b.mesh().simplices;
+            REQUIRE(std::count(all.begin(), all.end(), std::array<std::int32_t, 3>{0, 2, 1}) == 1);
+        }
+}
+
+TEST_CASE("points among spheres are hidden in them or corners, however far another sphere is") {
+    auto b = make_heap(3);
+    auto const expected = b.pores(2).simplices;
+    for (int k = 0; k < 5; ++k) b.add(b.x[13] + direction(k) * (0.01 + 0.05 * k), 0); // in the sphere in the middle
+    REQUIRE(b.pores(2).simplices == expected);
+    for (double const far : {1e3, 1e6, 1e9, 1e15, 1e20, 1e30, 1e60})
+        for (int k = 0; k < 11; ++k) {
+            auto c = b;
+            c.add(direction(k) * far);
+            auto const mesh = c.mesh().simplices;
+            for (auto const& s : mesh)
+                for (auto const i : s) REQUIRE((i < 27 || i == 32));
+            REQUIRE(c.pores(2).simplices == expected);
+        }
+    // In the middle of four spheres that leave a gap there, the point is a corner of four tetrahedra.
+    body<3> four;
+    four.add({1, 1, 1});
+    four.add({1, -1, -1});
+    four.add({-1, 1, -1});
+    four.add({-1, -1, 1});
+    four.add({0.1, 0, 0}, 0);
+    REQUIRE(four.mesh().size() == 4);
+    for (double const far : {1e6, 1e15, 1e20, 1e30}) {
+        auto c = four;
+        c.add({far, 0.1 * far, 0.2 * far});
+        std::size_t around = 0;
+        for (auto const& s : c.mesh().simplices) around += std::size_t(std::count(s.begin(), s.end(), 4));
+        REQUIRE(around == 4);
+    }
+}
+
+namespace {
+
+/// A small simplex within a large one around it: all simplices but the small one have corners of both.
+template <class Real, int Dim>
+void require_small_within_large(double small, double large) {
+    constexpr auto corners = std::size_t(Dim) + 1;
+    body<Dim, Real> b;
+    for (double const scale : {small, large})
+        for (std::size_t c = 0; c < corners; ++c) {
+            vec<Real, Dim> x{};
+            for (int a = 0; a < Dim; ++a) x[a] = Real(scale * (a == int(c) ? 1.0 : Dim == int(c) ? -0.7 : -0.1));
+            b.add(x, Real(1e-3 * small));
+        }
+    auto const mesh = b.mesh();
+    // 2 V - 2 - H triangles of V vertices, H of them on the hull.
+    if (Dim == 2) REQUIRE(mesh.size() == 7);
+    std::size_t inner = 0, outer = 0, open = 0;
+    for (std::size_t t = 0; t < mesh.size(); ++t) {
+        auto const& s = mesh.simplices[t];
+        std::size_t near = 0;
+        for (auto const i : s) near += i < std::int32_t(corners);
+        inner += near == corners;
+        outer += near == 0;
+        for (std::size_t c = 0; c < corners; ++c)
+            if (mesh.neighbours[t][c] < 0) {
+                ++open;
+                for (std::size_t k = 0; k < corners; ++k) REQUIRE((k == c || s[k] >= std::int32_t(corners)));
+            }
+    }
+    REQUIRE(inner == 1);
+    REQUIRE(outer == 0);
+    REQUIRE(open == corners);
+}
+
+} // namespace
+
+TEST_CASE("a small simplex within a large one: lengths over the range of the numbers") {
+    for (double const large : {1e2, 1e10, 1e20, 1e37})
+        for (double const small : {1e-41, 1e-30, 1e-10, 1.0}) {
+            require_small_within_large<float, 2>(small, large);
+            require_small_within_large<float, 3>(small, large);
+        }
+    for (double const large : {1e-250, 1e-100, 1.0, 1e20, 1e69})
+        for (double const small : {1e-270, 1e-180, 1e-120, 1e-60, 1e-3})
+            if (small < large) {
+                require_small_within_large<double, 2>(small, large);
+                require_small_within_large<double, 3>(small, large);
+            }
+}
+
+TEST_CASE("numbers that neither overflow nor underflow: sums and products by hand") {
+    using detail::wide_number;
+    auto const sign = [](wide_number const& a) { return (a.value() > 0) - (a.value() < 0); };
+    // (2^600 + 2^-600)^2 = 2^1200 + 2 + 2^-1200, and 2^1200 alone is beyond a double.
+    wide_number const large(0x1p600), small(0x1p-600), sum = large + small;
+    REQUIRE(sign(sum * sum - large * large - small * small - wide_number(2)) == 0);
+    REQUIRE(sign(sum * sum - large * large - wide_number(2)) > 0);
+    REQUIRE(sign(large * large + wide_number(2) - sum * sum) < 0);
+    REQUIRE((small * small).value() == 0x1p-1074);
+    REQUIRE((-(small * small)).value() == -0x1p-1074);
+    REQUIRE((large * small * wide_number(3)).value() == 3);
+    REQUIRE((sum - large).value() == 0x1p-600);
+    REQUIRE(wide_number(0).value() == 0);
+    REQUIRE((wide_number(5e-324) * wide_number(1e308) * wide_number(1e16)).value() == 0x1p-1074 * 1e308 * 1e16);
+    std::mt19937_64 engine(11);
+    for (int k = 0; k < 2000; ++k) {
+        // Whole numbers under 2^30, shifted: their products fit into whole numbers of 64 bits.
+        auto const whole = [&] { return std::int64_t(engine() >> 34) - (std::int64_t(1) << 29); };
+        std::int64_t const a = whole(), b = whole(), c = whole();
+        int const shift = int(engine() % 1500) - 750;
+        auto const number = [&](std::int64_t i) { return wide_number(std::ldexp(double(i), shift)); };
+        auto const product = (number(a) * number(b) - number(c) * number(a)) + number(b) * number(c);
+        auto const back = wide_number(std::ldexp(1.0, -shift));
+        REQUIRE_THAT((product * back * back).value(), WithinRel(double(a * b - c * a + b * c), 1e-15));
+        REQUIRE(wide_number::difference(double(a), double(b)).value() == double(a - b));
+        REQUIRE(sign(wide_number::square(double(a)) - wide_number(double(a)) * wide_number(double(a))) == 0);
+    }
+}
+
+TEST_CASE("small spheres that touch each other and a large one have a pore") {
+    for (double const small : {1e-2, 1e-4, 1e-6, 1e-7, 1e-8}) {
+        body<3> b;
+        b.add({0, 0, 0}, 0.5);
+        for (int k = 0; k < 3; ++k)
+            b.add({small * std::cos(2 * pi * k / 3), small * std::sin(2 * pi * k / 3), 0.5 + small}, 0.86 * small);
+        REQUIRE(b.mesh().size() == 1);
+        // A fourth one upon the three: two tetrahedra.
+        b.add({0, 0, 0.5 + 2.4 * small}, 0.86 * small);
+        REQUIRE(b.mesh().size() == 2);
+    }
+}
+
+TEST_CASE("without triangles of hardly any area the boundary has no cut") {
+    // Five discs on one line, two of them near each other, and a sixth above its end: a fan.
+    body<2> b;
+    for (double const x : {0.0, 2e5, 2e5 + 5e-3, 4e5, 4e5 + 0.02}) b.add({x, 0}, 0);
+    b.add({4e5 + 0.02, 7e-3}, 0);
+    std::vector<std::array<std::int32_t, 3>> const fan{{0, 1, 5}, {1, 2, 5}, {2, 3, 5}, {3, 4, 5}};
+    REQUIRE(sorted_corners(b.mesh()) == fan);
+}
+
+TEST_CASE("pores of single precision where its cubes overflow or underflow, and a network that refuses them") {
+    auto const expected = make_hexagon().pores().simplices;
+    auto const cubic = make_heap(3);
+    auto const tetrahedra = cubic.pores().simplices;
+    for (double const scale : {1e-20, 1e-13, 1.0, 1e13, 1e20, 1e30}) {
+        body<2, float> discs;
+        for (auto const& x : make_hexagon().x)
+            discs.add({float(scale * x[0]), float(scale * x[1])}, float(0.5 * scale));
+        REQUIRE(discs.pores().simplices == expected);
+        body<3, float> spheres;
+        for (auto const& x : cubic.x)
+            spheres.add({float(scale * x[0]), float(scale * x[1]), float(scale * x[2])}, float(0.5 * scale));
+        REQUIRE(spheres.pores().simplices == tetrahedra);
+        auto const of_spheres = [&] {
+            (void)make_pore_network(spheres.pores(), view_points(spheres.x), spheres.r.data());
+        };
+        if (scale > 1e10)
+            REQUIRE_THROWS_WITH(of_spheres(), contains_text("must be finite"));
+        else if (scale == 1)
+            REQUIRE_NOTHROW(of_spheres());
+    }
 }
 
 TEST_CASE("positions and radii with too large squares are refused") {

@@ -124,7 +124,7 @@ public:
     /// \param time_step length of the step that led to the present positions, s
     template <bool WithEnergy, bool Commit = true>
     void evaluate(store_type const& store, int chunk, Real time_step) {
-        auto& energy = energy_[std::size_t(chunk)];
+        auto& energy = chunk_results_[std::size_t(chunk)].energy;
         energy = {};
         auto ahead = forces_.plan_prefetch(store, chunk, bonds_, contacts_);
         overlap_limits<Real> const limits{deepest_, watched_};
@@ -156,8 +156,8 @@ public:
     std::span<break_event<Dim> const> collect_events() {
         events_.clear();
         fracture_energy_ = {};
-        for (auto& chunk : chunk_events_) {
-            for (auto& e : chunk) {
+        for (auto& chunk : chunk_results_) {
+            for (auto& e : chunk.failures) {
                 events_.push_back(e.event);
                 broken_.push_back(e.contact);
                 fracture_energy_[e.event.mode == bond_state::broken_in_shear] += e.released;
@@ -165,7 +165,7 @@ public:
                 record.state = e.event.mode;
                 record.slot = -1;
             }
-            chunk.clear();
+            chunk.failures.clear();
         }
         return events_;
     }
@@ -176,9 +176,9 @@ public:
     /// Energies of the last evaluation with WithEnergy, summed over the chunks in their order.
     pair_energy energy() const noexcept {
         pair_energy total;
-        for (auto const& chunk : energy_) {
-            for (auto const& e : chunk) total += e;
-            total.in_bonds += chunk[0].stored;
+        for (auto const& chunk : chunk_results_) {
+            for (auto const& e : chunk.energy) total += e;
+            total.in_bonds += chunk.energy[0].stored;
         }
         return total;
     }
@@ -188,8 +188,8 @@ public:
     void set_deepest_overlap(double limit) noexcept { deepest_ = Real(limit); }
     /// Internal indices of two particles in contact that overlap by more than the limit; {-1, -1} if there are none.
     std::array<std::int32_t, 2> deep_overlap() const noexcept {
-        for (auto const& pair : deep_overlap_)
-            if (pair[0] >= 0) return pair;
+        for (auto const& chunk : chunk_results_)
+            if (chunk.deep_overlap[0] >= 0) return chunk.deep_overlap;
         return {-1, -1};
     }
     /// Makes evaluations record contacts that overlap by more than this share of the smaller radius, 1. Only for laws
@@ -199,7 +199,8 @@ public:
     double take_deepest() noexcept {
         double deepest = 0;
         if constexpr (stiffens<ContactLaw, Dim>)
-            for (auto& share : overlap_share_) deepest = std::max(deepest, double(std::exchange(share, Real(0))));
+            for (auto& chunk : chunk_results_)
+                deepest = std::max(deepest, double(std::exchange(chunk.overlap_share, Real(0))));
         return deepest;
     }
     /// Distance by which two particles outside the candidate list may still approach before they could touch, m;
@@ -314,7 +315,7 @@ private:
         for (std::size_t s = 0; s < contacts_.slots(); ++s)
             if (!contacts_.is_padding(s, store.size())) look(contacts_.get(s));
         for (contact_entry const& e : broken_) look(e);
-        std::sort(held_.begin(), held_.end(), pair_before<neighbor_pair>);
+        detail::sort_pairs(held_.data(), held_.data() + held_.size());
         neighbors_.add(held_);
     }
     std::int32_t parameter_row(store_type const& store, std::int32_t i, std::int32_t j) const noexcept {
@@ -355,11 +356,8 @@ private:
     void build_rows(store_type const& store) {
         forces_.build(store.size(), bonds_, contacts_);
         if constexpr (carries_moment<ContactLaw>) contact_moments_.resize(contacts_.slots() * rotation_dim<Dim>);
-        auto const chunks = std::size_t(forces_.chunks());
-        chunk_events_.resize(chunks);
-        energy_.resize(chunks);
-        deep_overlap_.assign(chunks, {-1, -1});
-        overlap_share_.assign(chunks, Real(0));
+        chunk_results_.resize(std::size_t(forces_.chunks()));
+        for (auto& chunk : chunk_results_) chunk.deep_overlap = {-1, -1}, chunk.overlap_share = 0;
     }
 
     template <pair_kind Kind, class Law>
@@ -369,9 +367,9 @@ private:
     }
     void note_overlaps(store_type const& store, int chunk, std::size_t pack) {
         if (auto const found = find_deep_overlap(store, contacts_, pack, deepest_); found[0] >= 0)
-            deep_overlap_[std::size_t(chunk)] = found;
+            chunk_results_[std::size_t(chunk)].deep_overlap = found;
         if constexpr (stiffens<ContactLaw, Dim>) {
-            auto& share = overlap_share_[std::size_t(chunk)];
+            auto& share = chunk_results_[std::size_t(chunk)].overlap_share;
             share = std::max(share, deepest_of_pack(store, contacts_, pack));
         }
     }
@@ -387,8 +385,9 @@ private:
             if (!failed) continue;
             if constexpr (carries_moment<BondLaw>)
                 std::fill_n(moments_.begin() + std::ptrdiff_t(s * rotation_dim<Dim>), rotation_dim<Dim>, Real(0));
-            energy_[std::size_t(chunk)][2] += {failed->stored, 0, 0, -failed->event.energy};
-            chunk_events_[std::size_t(chunk)].push_back(*failed);
+            auto& results = chunk_results_[std::size_t(chunk)];
+            results.energy[2] += {failed->stored, 0, 0, -failed->event.energy};
+            results.failures.push_back(*failed);
         }
     }
 
@@ -406,13 +405,16 @@ private:
     std::vector<bond_record> bond_records_;
     std::vector<std::int32_t> bond_rows_; // parameter row of each bond; empty without individual values
     std::vector<contact_entry> broken_;
-    std::vector<std::vector<pending_event>> chunk_events_;
     std::vector<break_event<Dim>> events_;
-    std::vector<std::array<pair_energy, 3>> energy_; // of bonds, of contacts, correction for bonds that failed
-    std::vector<std::array<std::int32_t, 2>> deep_overlap_;
-    Real deepest_ = 1; // overlap over the smaller radius beyond which deep_overlap_ lists a pair
-    std::vector<Real> overlap_share_; // by chunk, the deepest overlap beyond watched_, over the smaller radius
-    Real watched_ = 1;
+    /// Results of the last evaluation of one chunk.
+    struct chunk_result {
+        std::vector<pending_event> failures;
+        std::array<pair_energy, 3> energy{};             ///< of bonds, of contacts, correction for bonds that failed
+        std::array<std::int32_t, 2> deep_overlap{-1, -1}; ///< a pair with an overlap beyond deepest_
+        Real overlap_share = 0; ///< the deepest overlap beyond watched_, over the smaller radius
+    };
+    std::vector<chunk_result> chunk_results_;
+    Real deepest_ = 1, watched_ = 1; // limits of overlaps, over the smaller radius
     std::array<double, 2> fracture_energy_{};
 };
 LACUNA_END_PACKS

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -44,7 +43,7 @@ public:
         for (int axis = 0; axis < Dim; ++axis) require_finite(name + ".force", force[axis]);
         for (int axis = 0; axis < rotation_dim<Dim>; ++axis) require_finite(name + ".torque", torque[axis]);
         require_not_negative(name + ".ramp_time", ramp_time);
-        one_load& l = load_[k];
+        one_load& l = load_of(k, store.size());
         auto const [force_now, torque_now] = l.at(now);
         l = {force, torque, force_now, torque_now, now, ramp_time};
         bool const listed = std::find(rising_.begin(), rising_.end(), k) != rising_.end();
@@ -56,7 +55,10 @@ public:
     void advance(particle_store<Real, Dim>& store, double time) {
         if (rising_.empty()) return;
         for (std::size_t const k : rising_) put(store, k, time);
-        std::erase_if(rising_, [&](std::size_t k) { return time >= load_.at(k).start + load_.at(k).ramp_time; });
+        std::erase_if(rising_, [&](std::size_t k) {
+            one_load const& l = *find(k);
+            return time >= l.start + l.ramp_time;
+        });
     }
 
     /// Writes the weight of all particles into the store.
@@ -69,7 +71,9 @@ public:
     template <class Hash>
     std::uint64_t sum_of_loads(Hash const& hash) const {
         std::uint64_t sum = 0;
-        for (auto const& [k, l] : load_) sum += hash(k, l.force, l.torque, l.from_force, l.from_torque, l.ramp_time);
+        for (std::size_t k = 0; k < index_.size(); ++k)
+            if (one_load const* l = find(k))
+                sum += hash(k, l->force, l->torque, l->from_force, l->from_torque, l->ramp_time);
         return sum;
     }
 
@@ -80,19 +84,21 @@ public:
     void archive(Archive& ar, std::size_t particles) {
         std::vector<std::size_t> loaded;
         std::vector<one_load> values;
-        for (auto const& [k, load] : load_) {
-            loaded.push_back(k);
-            values.push_back(load);
-        }
+        for (std::size_t k = 0; k < index_.size(); ++k)
+            if (one_load const* l = find(k)) {
+                loaded.push_back(k);
+                values.push_back(*l);
+            }
         ar(loaded, values, rising_);
         if constexpr (Archive::is_loading::value) {
             require_state(loaded.size() == values.size(), "the number of loads");
             load_.clear();
+            index_.clear();
             for (std::size_t n = 0; n < loaded.size(); ++n) {
                 require_state(loaded[n] < particles && (n == 0 || loaded[n - 1] < loaded[n]), "a load on no particle");
-                load_[loaded[n]] = values[n];
+                load_of(loaded[n], particles) = values[n];
             }
-            for (std::size_t const k : rising_) require_state(load_.count(k) == 1, "a ramp without a load");
+            for (std::size_t const k : rising_) require_state(find(k) != nullptr, "a ramp without a load");
         }
     }
 
@@ -111,9 +117,23 @@ private:
         }
     };
 
+    /// The load on a particle; nullptr if it never had one.
+    one_load const* find(std::size_t k) const noexcept {
+        return k < index_.size() && index_[k] >= 0 ? &load_[std::size_t(index_[k])] : nullptr;
+    }
+    /// The load on a particle, which may be new.
+    one_load& load_of(std::size_t k, std::size_t particles) {
+        if (index_.empty()) index_.assign(particles, -1);
+        if (index_[k] < 0) {
+            index_[k] = std::int32_t(load_.size());
+            load_.push_back({});
+        }
+        return load_[std::size_t(index_[k])];
+    }
+
     void put(particle_store<Real, Dim>& store, std::size_t k, double time) const {
-        auto const found = load_.find(k);
-        one_load const l = found == load_.end() ? one_load{} : found->second;
+        auto const* found = find(k);
+        one_load const l = found ? *found : one_load{};
         auto const [force, torque] = l.at(time);
         double const weight = double(store.mass(k)) * weight_share_[by_particle_ ? k : std::size_t(store.material(k))];
         vec<Real, Dim> total{};
@@ -128,7 +148,8 @@ private:
     point gravity_{};
     std::vector<double> weight_share_;
     bool by_particle_ = false;
-    std::map<std::size_t, one_load> load_; ///< by internal index, for each particle that ever had a load
+    std::vector<one_load> load_;      ///< of each particle that ever had a load
+    std::vector<std::int32_t> index_; ///< by internal index: index in load_, -1 if none; empty before the first load
     std::vector<std::size_t> rising_;
 };
 

@@ -66,10 +66,14 @@ public:
             double const share = (risen(r, time + time_step) - risen(r, time)) / time_step;
             set(r.particle, r.from + (r.to - r.from) * share);
         }
-        std::erase_if(rising_, [&](one const& r) { return time >= r.start + r.ramp_time; });
+        forget_finished(time);
     }
 
 private:
+    void forget_finished(double time) {
+        std::erase_if(rising_, [&](one const& r) { return time >= r.start + r.ramp_time; });
+    }
+
     struct one {
         std::size_t particle;
         point from, to;

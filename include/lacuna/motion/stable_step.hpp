@@ -30,15 +30,14 @@ public:
     explicit frequency_bound(std::size_t particles) { reset(particles); }
     /// Removes all stiffnesses. Allocates nothing unless the number of particles exceeds all earlier ones.
     void reset(std::size_t particles) {
-        root_mobility_.resize(particles);
-        block_.assign(particles, {});
-        off_diagonal_.assign(particles, {});
+        rows_.resize(particles);
+        for (auto& r : rows_) r.block = {}, r.off_diagonal = {};
     }
 
     /// Sets the inverse mass of a particle along `axis`, 1/kg (axis >= Dim: the inverse moment of inertia, 1/(kg m^2));
     /// 0 if fixed.
     void set_mobility(std::size_t k, int axis, double mobility) {
-        root_mobility_[k][std::size_t(axis)] = std::sqrt(mobility);
+        rows_[k].root_mobility[std::size_t(axis)] = std::sqrt(mobility);
     }
 
     /// Adds a spring between two particles, with stiffnesses along the normal and across it, N/m. The shear stiffness
@@ -85,18 +84,17 @@ public:
     void add(std::array<std::size_t, Count> const& who, std::array<gradient, Count> const& g, double stiffness) {
         for (std::size_t p = 0; p < Count; ++p)
             for (int a = 0; a < freedoms; ++a) {
-                double const ga = g[p][std::size_t(a)] * root_mobility_[who[p]][std::size_t(a)];
+                auto& own = rows_[who[p]];
+                double const ga = g[p][std::size_t(a)] * own.root_mobility[std::size_t(a)];
                 if (ga == 0) continue;
-                auto& own = block_[who[p]];
-                auto& off_diagonal = off_diagonal_[who[p]];
                 for (std::size_t q = 0; q < Count; ++q)
                     for (int b = 0; b < freedoms; ++b) {
                         double const entry =
-                            stiffness * ga * g[q][std::size_t(b)] * root_mobility_[who[q]][std::size_t(b)];
+                            stiffness * ga * g[q][std::size_t(b)] * rows_[who[q]].root_mobility[std::size_t(b)];
                         if (q == p)
-                            own[std::size_t(a * freedoms + b)] += entry;
+                            own.block[std::size_t(a * freedoms + b)] += entry;
                         else
-                            off_diagonal[std::size_t(2 * a + (b >= Dim))] += std::fabs(entry);
+                            own.off_diagonal[std::size_t(2 * a + (b >= Dim))] += std::fabs(entry);
                     }
             }
     }
@@ -104,11 +102,12 @@ public:
     /// A force on particle k alone: minus its derivative by the position (or velocity), by rows, N/m (N s/m). It need
     /// not be symmetric: Gershgorin's theorem holds for any matrix.
     void add_matrix(std::size_t k, std::array<point, std::size_t(Dim)> const& derivative) {
+        auto& own = rows_[k];
         for (int a = 0; a < Dim; ++a)
             for (int b = 0; b < Dim; ++b)
-                block_[k][std::size_t(a * freedoms + b)] += derivative[std::size_t(a)][b] *
-                                                            root_mobility_[k][std::size_t(a)] *
-                                                            root_mobility_[k][std::size_t(b)];
+                own.block[std::size_t(a * freedoms + b)] += derivative[std::size_t(a)][b] *
+                                                            own.root_mobility[std::size_t(a)] *
+                                                            own.root_mobility[std::size_t(b)];
     }
 
     /// The upper bound of omega_max, rad/s; 0 without any stiffness.
@@ -116,11 +115,11 @@ public:
         constexpr int scales = 7; // 0.5 to 4
         std::array<double, scales> scale{0.5}, largest{};
         for (std::size_t s = 1; s < scales; ++s) scale[s] = scale[s - 1] * std::sqrt(2.0);
-        for (std::size_t k = 0; k < block_.size(); ++k)
+        for (auto const& own : rows_)
             for (int a = 0; a < freedoms; ++a) {
-                double sums[2] = {off_diagonal_[k][std::size_t(2 * a)], off_diagonal_[k][std::size_t(2 * a + 1)]};
+                double sums[2] = {own.off_diagonal[std::size_t(2 * a)], own.off_diagonal[std::size_t(2 * a + 1)]};
                 for (int b = 0; b < freedoms; ++b)
-                    sums[b >= Dim] += std::fabs(block_[k][std::size_t(a * freedoms + b)]);
+                    sums[b >= Dim] += std::fabs(own.block[std::size_t(a * freedoms + b)]);
                 // This form passes not-a-number on to the bound, so that the step becomes zero.
                 if (sums[0] + sums[1] == 0) continue;
                 for (std::size_t s = 0; s < scales; ++s) {
@@ -190,9 +189,13 @@ private:
         return g;
     }
 
-    std::vector<std::array<double, std::size_t(freedoms)>> root_mobility_;
-    std::vector<std::array<double, std::size_t(freedoms* freedoms)>> block_; ///< rows of the diagonal blocks
-    std::vector<std::array<double, std::size_t(2 * freedoms)>> off_diagonal_; ///< sums per row: translations, rotations
+    /// The matrix rows of one particle.
+    struct particle_rows {
+        std::array<double, std::size_t(freedoms)> root_mobility{};
+        std::array<double, std::size_t(freedoms * freedoms)> block{}; ///< rows of the diagonal block
+        std::array<double, std::size_t(2 * freedoms)> off_diagonal{}; ///< sums per row: translations, rotations
+    };
+    std::vector<particle_rows> rows_;
 };
 
 } // namespace lacuna

@@ -123,9 +123,7 @@ public:
             if (out.size() > most_pairs_)
                 throw std::length_error("kd_tree: more than " + std::to_string(most_pairs_) + " pairs");
         }
-        std::sort(out.begin(), out.end(), [](neighbor_pair const& a, neighbor_pair const& b) {
-            return a.i < b.i || (a.i == b.i && a.j < b.j);
-        });
+        detail::sort_pairs(out.data(), out.data() + out.size());
     }
     /// Sets the largest number of pairs. Beyond it, pairs() and touching_pairs() throw std::length_error, so that pairs
     /// do not exhaust the memory. By default there is no limit.

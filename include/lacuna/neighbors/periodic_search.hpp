@@ -112,9 +112,7 @@ private:
             pair = {of_[std::size_t(pair.i)], of_[std::size_t(pair.j)]};
             if (pair.i > pair.j) std::swap(pair.i, pair.j);
         }
-        std::sort(out.begin(), out.end(), [](neighbor_pair const& a, neighbor_pair const& b) {
-            return a.i < b.i || (a.i == b.i && a.j < b.j);
-        });
+        detail::sort_pairs(out.data(), out.data() + out.size());
         out.erase(std::unique(out.begin(), out.end()), out.end());
         std::erase_if(out, [](neighbor_pair const& pair) { return pair.i == pair.j; });
     }

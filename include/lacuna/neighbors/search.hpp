@@ -116,17 +116,19 @@ Real require_radii(std::span<Real const> radii, std::size_t count, Real margin) 
     return largest;
 }
 
+/// Sorts pairs by (i, j).
+inline void sort_pairs(neighbor_pair* first, neighbor_pair* last) {
+    std::sort(first, last,
+              [](neighbor_pair const& a, neighbor_pair const& b) { return a.i < b.i || (a.i == b.i && a.j < b.j); });
+}
+
 /// Sorts the pairs of one i by j. Rows are short except for degenerate input.
 inline void sort_row(neighbor_pair* first, neighbor_pair* last) {
-    auto const before = [](neighbor_pair const& a, neighbor_pair const& b) { return a.j < b.j; };
-    if (last - first > 32) {
-        std::sort(first, last, before);
-        return;
-    }
+    if (last - first > 32) return sort_pairs(first, last);
     for (neighbor_pair* p = first; p < last; ++p) {
         neighbor_pair const moving = *p;
         neighbor_pair* to = p;
-        for (; to > first && before(moving, to[-1]); --to) *to = to[-1];
+        for (; to > first && moving.j < to[-1].j; --to) *to = to[-1];
         *to = moving;
     }
 }

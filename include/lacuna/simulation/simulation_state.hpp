@@ -42,18 +42,13 @@ struct simulation_state {
     using event_type = break_event<dim>;
 
     /// \throws std::invalid_argument for a bad packing or parameter; see simulation
-    simulation_state(packing<real, dim> const& packing, simulation_parameters<Model> const& p) : settings(p) {
-        p.validate();
-        packing.require_bond_kinds(p.bonds.size());
-        packing.require_period(period());
-        make_particles(packing);
-        pairs = interactions_type(store, packing.bonds, p.materials, p.thickness, p.interactions, p.damping, p.bonds);
-        std::vector<typename contact_law_type::material> contact_materials;
-        for (auto const& m : p.materials) contact_materials.push_back(m.contact);
-        walls = walls_type(p.walls, contact_materials, p.thickness);
-        wall_motions = wall_drive<dim>(p.walls.size(), p.thickness);
-        own_forces = decltype(own_forces)(p.forces);
-        guards = run_guards<Model>(store, pairs, p.guards, p.damping, p.allow_unstable_step);
+    simulation_state(packing<real, dim> const& packing, simulation_parameters<Model> const& p)
+        : settings(checked(p, packing)), store(make_particles(packing)),
+          pairs(store, packing.bonds, p.materials, p.thickness, p.interactions, p.damping, p.bonds),
+          walls(p.walls, contact_materials(), p.thickness), loads(make_loads(packing)), own_forces(p.forces),
+          wall_motions(p.walls.size(), p.thickness),
+          guards(store, pairs, p.guards, p.damping, p.allow_unstable_step) {
+        loads.apply_weight(store);
         pairs.set_deepest_overlap(p.guards.largest_overlap());
         update_walls();
         reports.resize(std::size_t(pairs.chunks()));
@@ -123,32 +118,48 @@ struct simulation_state {
     run_guards<Model> guards;
 
 private:
-    point period() const {
+    static simulation_parameters<Model> const& checked(simulation_parameters<Model> const& p,
+                                                       packing<real, dim> const& packing) {
+        p.validate();
+        packing.require_bond_kinds(p.bonds.size());
         if constexpr (Model::domain::periodic)
-            return settings.domain.period;
+            packing.require_period(p.domain.period);
         else
-            return point{};
+            packing.require_period(point{});
+        return p;
     }
-    void make_particles(packing<real, dim> const& packing) {
-        auto const& p = settings;
-        std::vector<double> density;
-        for (auto const& m : p.materials) density.push_back(m.density);
+    store_type make_particles(packing<real, dim> const& packing) const {
         auto const order = [&] {
             if constexpr (dim == 2)
                 return strip_order(view_points(packing.position));
             else
                 return spatial_order(view_points(packing.position));
         }();
-        store = store_type(packing, order, density, p.mass, p.thickness);
+        store_type particles(packing, order, densities(), settings.mass, settings.thickness);
         if constexpr (Model::domain::periodic) {
             static_assert(!has_fluid<Model>, "pores have no images: a model with fluid has an open domain");
-            store.set_period(p.domain.period);
+            particles.set_period(settings.domain.period);
         }
+        return particles;
+    }
+    load_set<real, dim> make_loads(packing<real, dim> const& packing) const {
         bool const own = !packing.density.empty();
+        std::vector<double> density = densities();
         if (own) density.clear();
-        for (std::size_t k = 0; own && k < store.size(); ++k) density.push_back(packing.density[std::size_t(order[k])]);
-        loads = load_set<real, dim>(p.gravity, p.weight_shares(density), own);
-        loads.apply_weight(store);
+        for (std::size_t k = 0; own && k < store.size(); ++k)
+            density.push_back(packing.density[std::size_t(store.id(k))]);
+        return {settings.gravity, settings.weight_shares(density), own};
+    }
+    /// Densities of the materials, kg/m^3.
+    std::vector<double> densities() const {
+        std::vector<double> list;
+        for (auto const& m : settings.materials) list.push_back(m.density);
+        return list;
+    }
+    std::vector<typename contact_law_type::material> contact_materials() const {
+        std::vector<typename contact_law_type::material> list;
+        for (auto const& m : settings.materials) list.push_back(m.contact);
+        return list;
     }
 };
 LACUNA_END_PACKS

@@ -71,16 +71,18 @@ public:
                bool transient) {
         at_.resize(std::size_t(table.chunks()));
         lifetimes_.assign(at_.size(), 0);
+        packs_.resize(at_.size());
         // Packs in use are counted from chunk to chunk: the spare packs between them need no memory.
         std::size_t in_use = 0;
         for (int c = 0; c < table.chunks(); ++c) {
             at_[std::size_t(c)].origin = table.first_pack(c) - in_use;
             in_use = end_of(table, c);
+            packs_[std::size_t(c)] = table.end_pack(c) - table.first_pack(c);
         }
         std::size_t window = 0;
         if (transient) {
             find_lifetimes(table, particles, spans);
-            window = best_window(table, spans.count());
+            window = best_window(spans.count());
         }
         count_ = 0;
         for (int s = 0; s < spans.count(); ++s) {
@@ -93,7 +95,7 @@ public:
                     at.window = window;
                 } else {
                     at = {count_, table.first_pack(c), std::numeric_limits<std::size_t>::max()};
-                    count_ += packs_of(table, c);
+                    count_ += packs_[std::size_t(c)];
                 }
             }
         }
@@ -125,10 +127,6 @@ private:
     };
     static constexpr std::size_t to_the_end = std::numeric_limits<std::size_t>::max();
 
-    template <class Law, class Real, int Dim>
-    static std::size_t packs_of(pair_table<Law, Real, Dim> const& table, int chunk) noexcept {
-        return table.end_pack(chunk) - table.first_pack(chunk);
-    }
     /// Number of packs in use up to the end of a chunk.
     template <class Law, class Real, int Dim>
     std::size_t end_of(pair_table<Law, Real, Dim> const& table, int chunk) const noexcept {
@@ -154,8 +152,7 @@ private:
         }
     }
     /// Number of packs to reuse in each span that makes the memory smallest.
-    template <class Law, class Real, int Dim>
-    std::size_t best_window(pair_table<Law, Real, Dim> const& table, int spans) {
+    std::size_t best_window(int spans) {
         order_.resize(lifetimes_.size());
         for (std::size_t c = 0; c < order_.size(); ++c) order_[c] = int(c);
         std::sort(order_.begin(), order_.end(),
@@ -167,13 +164,13 @@ private:
                 fewest = own + lifetime * std::size_t(spans);
                 window = lifetime;
             }
-            own += packs_of(table, c);
+            own += packs_[std::size_t(c)];
         }
         return own < fewest ? 0 : window;
     }
 
     std::vector<chunk_offsets> at_;
-    std::vector<std::size_t> lifetimes_;
+    std::vector<std::size_t> lifetimes_, packs_; // by chunk; packs_: number of packs in use
     std::vector<int> order_;
     std::size_t count_ = 1;
 };

@@ -155,7 +155,7 @@ private:
 };
 
 /// Box that holds the centres of all particles of radius <= largest_radius that may be inside the orthogonal sphere of
-/// a simplex. Limits of +-1e300 if the simplex is so flat that rounding hides the sphere.
+/// a simplex. Limits of +-1e300 if the simplex is so flat or small that rounding hides the sphere.
 /// \return lower and upper corner, m
 template <class Real, int Dim>
 std::array<std::array<double, std::size_t(Dim)>, 2>
@@ -185,7 +185,7 @@ orthogonal_box(std::array<std::int32_t, std::size_t(Dim) + 1> const& s, points_v
         size = dot(u[0], across);
         centre = (across * half[0] + cross(u[2], u[0]) * half[1] + cross(u[0], u[1]) * half[2]) / size;
     }
-    bool const sure = std::fabs(size) > 1e-6 * lengths;
+    bool const sure = std::fabs(size) > 1e-6 * lengths && lengths > 1e-200; // products of lengths might underflow
     double const middle = norm(centre), power = squared_norm(centre) - squared_radius(0);
     double const reach = (std::sqrt(std::max(power, 0.0)) + largest_radius + middle) * (1 + 1e-6) - middle;
     std::array<std::array<double, std::size_t(Dim)>, 2> box;

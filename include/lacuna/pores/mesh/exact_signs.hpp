@@ -10,6 +10,8 @@
 #include <cstdint>
 #include <vector>
 
+#include <lacuna/pores/mesh/wide_number.hpp>
+
 /// \file
 /// Exact signs of the determinants on which a triangulation depends. Plain doubles are used where their error bound
 /// guarantees the sign, otherwise sums of doubles that do not overlap (J. R. Shewchuk, Adaptive precision
@@ -107,17 +109,28 @@ T determinant(std::array<std::array<T, N>, N> const& m) {
 }
 
 /// Particles of a triangulation as exact_signs uses them: positions, and weights r^2 + shift. Lengths are scaled by a
-/// power of two such that no coordinate or radius exceeds 1.
+/// power of two such that products of five do not overflow.
 template <int Dim>
 struct weighted_sites {
+    static constexpr int most_exponent = 190; ///< lengths are under 2^190
+    static constexpr double least = 0x1p-160; ///< products of five lengths above it are exact as sums of doubles
+
     std::vector<std::array<double, std::size_t(Dim)>> x;
     std::vector<double> radius, shift;
     double scale = 1; ///< 1 / m
     double reach = 0; ///< scaled_particles::reach, in the units of `x`
+    /// Whether a length is under `least`, or a shift under its square. So it is if lengths differ by a factor of more
+    /// than 2^349 (1e105), which those in single precision never do.
+    bool wide = false;
 
     /// Length above which a simplex is never taken as degenerate: it has a particle far from the others, and may be
     /// thin without being flat.
     static double longest_degenerate(double reach) noexcept { return (Dim == 2 ? 100 : 10) * reach; }
+    /// Power of two by which lengths are multiplied so that the reach becomes 1 to 2, and products of lengths that are
+    /// not far above it do not underflow.
+    static double unit(double reach) noexcept {
+        return reach > 0 ? std::ldexp(1.0, std::min(-std::ilogb(reach), 1023)) : 1;
+    }
 
     std::size_t size() const noexcept { return x.size(); }
     double weight(std::size_t k) const noexcept { return radius[k] * radius[k] + shift[k]; }
@@ -151,12 +164,13 @@ public:
                 largest[k][a] = std::fabs(m[k][a]);
             }
         double const size = determinant(m);
-        if (std::fabs(size) > 1e-14 * permanent(largest)) return size;
-        std::array<std::array<exact_number, dim>, dim> exact;
-        for (std::size_t k = 0; k < dim; ++k)
-            for (std::size_t a = 0; a < dim; ++a)
-                exact[k][a] = exact_number::difference(coordinate(s[k + 1], a), coordinate(s[0], a));
-        return determinant(exact).value();
+        if (std::fabs(size) > 1e-14 * permanent(largest) + underflow) return size;
+        return at_.wide ? exact_orientation<wide_number>(s) : exact_orientation<exact_number>(s);
+    }
+
+    /// Whether the first `count` + 1 corners of s are not on one line; for count = 1, not at one point.
+    bool independent(simplex const& s, std::size_t count) const {
+        return at_.wide ? spans<wide_number>(s, count) : spans<exact_number>(s, count);
     }
 
     /// > 0 if site p is inside the orthogonal sphere of simplex s: below the plane through the simplex's corners in
@@ -170,7 +184,7 @@ public:
     power_reading read(simplex const& s, std::int32_t p) const noexcept {
         std::array<std::array<double, dim>, dim + 1> u;
         std::array<double, dim + 1> lift, bound;
-        power_reading r{0, 0, 0, 1e300};
+        power_reading r{0, 0, underflow, 1e300};
         double const own = at_.weight(std::size_t(p));
         for (std::size_t k = 0; k <= dim; ++k) {
             double squared = 0;
@@ -207,15 +221,44 @@ public:
     }
 
     double exact_inside(simplex const& s, std::int32_t p) const {
-        std::array<std::array<exact_number, dim + 1>, dim + 1> m;
+        return at_.wide ? exact_inside<wide_number>(s, p) : exact_inside<exact_number>(s, p);
+    }
+
+private:
+    /// Bound of the error by underflow: each product errs by at most 2^-1075, times three other lengths under 2^191.
+    static constexpr double underflow = 0x1p-490;
+
+    template <class Number>
+    double exact_orientation(simplex const& s) const {
+        std::array<std::array<Number, dim>, dim> m;
+        for (std::size_t k = 0; k < dim; ++k)
+            for (std::size_t a = 0; a < dim; ++a)
+                m[k][a] = Number::difference(coordinate(s[k + 1], a), coordinate(s[0], a));
+        return determinant(m).value();
+    }
+    template <class Number>
+    bool spans(simplex const& s, std::size_t count) const {
+        auto const apart = [&](std::size_t k, std::size_t a) {
+            return Number::difference(coordinate(s[k], a), coordinate(s[0], a));
+        };
+        for (std::size_t a = 0; a < dim; ++a) {
+            std::size_t const b = (a + 1) % dim;
+            auto const size = count == 1 ? apart(1, a) : apart(1, a) * apart(2, b) - apart(1, b) * apart(2, a);
+            if (size.value() != 0) return true;
+        }
+        return false;
+    }
+    template <class Number>
+    double exact_inside(simplex const& s, std::int32_t p) const {
+        std::array<std::array<Number, dim + 1>, dim + 1> m;
         auto const weight = [&](std::int32_t k) {
-            return exact_number::square(at_.radius[std::size_t(k)]) + exact_number(at_.shift[std::size_t(k)]);
+            return Number::square(at_.radius[std::size_t(k)]) + Number(at_.shift[std::size_t(k)]);
         };
         auto const own = weight(p);
         for (std::size_t k = 0; k <= dim; ++k) {
             m[k][dim] = own - weight(s[k]);
             for (std::size_t a = 0; a < dim; ++a) {
-                m[k][a] = exact_number::difference(coordinate(s[k], a), coordinate(p, a));
+                m[k][a] = Number::difference(coordinate(s[k], a), coordinate(p, a));
                 m[k][dim] = m[k][dim] + m[k][a] * m[k][a];
             }
         }
@@ -223,8 +266,6 @@ public:
         double const value = determinant(m).value();
         return Dim % 2 == 0 ? value : -value;
     }
-
-private:
     double coordinate(std::int32_t k, std::size_t axis) const noexcept { return at_.x[std::size_t(k)][axis]; }
     static double permanent(std::array<std::array<double, dim>, dim> const& m) noexcept {
         if constexpr (Dim == 2)

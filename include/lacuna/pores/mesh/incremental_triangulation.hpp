@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <lacuna/pores/mesh/exact_signs.hpp>
+#include <lacuna/pores/mesh/mesh.hpp>
 
 namespace lacuna::detail {
 
@@ -76,7 +77,7 @@ private:
         std::size_t have = 0;
         for (auto const p : order) {
             first[have] = p;
-            if (have + 1 < corners && !independent(first, have)) continue;
+            if (have > 0 && have + 1 < corners && !sign_.independent(first, have)) continue;
             if (have + 1 == corners) {
                 double const size = sign_.orientation(first);
                 if (size == 0) continue;
@@ -87,24 +88,6 @@ private:
         }
         return false;
     }
-    /// Whether first[count] adds a dimension to those before it.
-    bool independent(simplex const& first, std::size_t count) const {
-        auto const& x = sign_.sites().x;
-        auto const apart = [&](std::size_t k, std::size_t axis) {
-            return exact_number::difference(x[std::size_t(first[k])][axis], x[std::size_t(first[0])][axis]);
-        };
-        if (count == 0) return true;
-        for (std::size_t a = 0; a < std::size_t(Dim); ++a) {
-            if (count == 1) {
-                if (apart(1, a).value() != 0) return true;
-                continue;
-            }
-            std::size_t const b = (a + 1) % std::size_t(Dim);
-            if ((apart(1, a) * apart(2, b) - apart(1, b) * apart(2, a)).value() != 0) return true;
-        }
-        return false;
-    }
-
     void begin(simplex const& first) {
         cell_.push_back({first, {}, true, far, false});
         std::vector<unmatched_side> sides;
@@ -129,7 +112,7 @@ private:
         unmatched_side one{{}, t, std::int32_t(corner)};
         auto const& s = cell_[std::size_t(t)].corner;
         for (std::size_t c = 0; c + 1 < corners; ++c) one.sites[c] = s[c < corner ? c : c + 1];
-        std::sort(one.sites.begin(), one.sites.end());
+        sort_corners(one.sites);
         return one;
     }
     /// Makes neighbours of the cells whose sides have the same sites.

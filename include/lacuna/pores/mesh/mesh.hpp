@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -79,11 +81,11 @@ std::array<std::int32_t, Count - 1> side_of(std::array<std::int32_t, Count> cons
     return side;
 }
 
-/// Reference for the least volume of a pore, m^Dim; see pore_network::size.
+/// Reference for the least volume of a pore, m^Dim; see pore_network::size. Not finite if the simplex's size is not.
 template <class Real, std::size_t Corners, int Dim = int(Corners) - 1>
 Real reference_size(std::array<std::int32_t, Corners> const& s, points_view<Real, Dim> points, Real const* radii) {
     Real const own = simplex_size(s, points);
-    if constexpr (Dim == 2) return own;
+    if (Dim == 2 || !std::isfinite(double(own))) return own;
     Real least = radii[std::size_t(s[0])];
     for (auto const i : s) least = min(least, radii[std::size_t(i)]);
     // The regular tetrahedron of edge 2 r has the volume (2 r)^3 / (6 sqrt 2). Without this lower limit the stiffness
@@ -185,6 +187,17 @@ bool is_sliver(std::array<std::int32_t, std::size_t(Dim) + 1> const& s, points_v
     return false;
 }
 
+/// Whether the cube of a length of these particles overflows or underflows in single precision, or nearly so.
+template <class Real, int Dim>
+bool leaves_single_range(points_view<Real, Dim> points, Real const* radii) noexcept {
+    double length = 0, radius = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        for (int axis = 0; axis < Dim; ++axis) length = std::max(length, std::fabs(double(points(i, axis))));
+        radius = std::max(radius, double(radii[i]));
+    }
+    return length > 1e12 || radius > 1e12 || (radius > 0 && radius < 1e-10);
+}
+
 } // namespace detail
 
 /// Total area or volume of a mesh, m^Dim.
@@ -209,6 +222,14 @@ Real mesh_size(pore_mesh<Dim> const& mesh, points_view<Real, Dim> points) {
 template <class Real, int Dim>
 pore_mesh<Dim> peel(pore_mesh<Dim> const& mesh, points_view<Real, Dim> points, Real const* radii, Real cutoff) {
     if (!(cutoff > Real(0))) refuse("cutoff", double(cutoff), "> 0");
+    if constexpr (!std::is_same_v<Real, double>)
+        if (detail::leaves_single_range(points, radii)) {
+            std::vector<vec<double, Dim>> x(points.size());
+            for (std::size_t i = 0; i < x.size(); ++i)
+                for (int axis = 0; axis < Dim; ++axis) x[i][axis] = double(points(i, axis));
+            std::vector<double> const r(radii, radii + x.size());
+            return peel(mesh, view_points(x), r.data(), double(cutoff));
+        }
     constexpr auto corners = std::size_t(Dim) + 1;
     std::vector<std::uint8_t> removed(mesh.size(), 0);
     auto const outside = [&](std::size_t s, std::size_t corner) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -28,6 +29,12 @@ double along(scaled_point<Dim> const& x) noexcept {
     return sum;
 }
 
+/// A coordinate or radius as a triangulation uses it: 0 if it is under 1e-290 m.
+template <class Real>
+double length_of(Real length) noexcept {
+    return std::fabs(double(length)) < 1e-290 ? 0 : double(length);
+}
+
 /// Pseudorandom number from -1 to 1 for each k (the hash of SplitMix64).
 inline double scatter(std::uint64_t k) noexcept {
     k = (k + 1) * 0x9e3779b97f4a7c15;
@@ -46,6 +53,7 @@ struct scaled_particles {
     /// Length scale of tolerances: the extent, but at most 64 times the largest radius. One particle far away must not
     /// widen the tolerances for all others.
     double reach = 1;
+    double reach_in_metres = 0; ///< the same, m: `reach` underflows if a particle is very far away
 
     /// Shift of the height |x|^2 - r^2 of particle k.
     ///
@@ -53,10 +61,12 @@ struct scaled_particles {
     /// Shifted heights are in general position and avoid that.
     double shift(std::size_t k) const noexcept {
         if constexpr (Dim == 2) return 0;
-        double const most = radius[k] > 0 ? std::min(nudge, 64e-7 * radius[k] * radius[k]) : nudge;
-        return most * scatter(k);
+        // Of a particle without radius among others: by the largest. The extent may exceed their distances by far.
+        double const own = radius[k] > 0 ? radius[k] : largest;
+        return std::min(nudge, 64e-7 * own * own) * scatter(k);
     }
-    double nudge = 0; ///< largest shift: 1e-7 N^(-2/3) for N particles in space
+    double nudge = 0;   ///< largest shift: 1e-7 N^(-2/3) for N particles in space
+    double largest = 0; ///< largest radius; infinity if all are 0
 };
 
 /// Deviation of points from one line (in space: from one plane), as a share of their extent. It is the height of a
@@ -91,46 +101,48 @@ double flatness(std::vector<scaled_point<Dim>> const& points) {
 template <class Real, int Dim>
 scaled_particles<Dim> scale_particles(points_view<Real, Dim> points, Real const* radii) {
     constexpr auto dim = std::size_t(Dim);
+    auto const at = [&](std::int32_t i, std::size_t axis) { return length_of(points(std::size_t(i), int(axis))); };
+    auto const count = std::int32_t(points.size());
     scaled_point<Dim> middle{};
     double extent = 0, largest = 0;
     for (std::size_t axis = 0; axis < dim; ++axis) {
-        double low = double(points(0, int(axis))), high = low;
-        for (std::size_t i = 0; i < points.size(); ++i) {
-            low = std::min(low, double(points(i, int(axis))));
-            high = std::max(high, double(points(i, int(axis))));
-            largest = std::max(largest, double(radii[i]));
+        double low = at(0, axis), high = low;
+        for (std::int32_t i = 0; i < count; ++i) {
+            low = std::min(low, at(i, axis));
+            high = std::max(high, at(i, axis));
+            largest = std::max(largest, length_of(radii[i]));
         }
         middle[axis] = low / 2 + high / 2;
         extent = std::max(extent, high - low);
     }
     scaled_particles<Dim> all;
     double const scale = all.scale = extent > 0 ? 1 / extent : 0;
+    auto const scaled_radius = [&](double r) { return std::min(r * scale, 1e70); }; // its square is finite
+    all.largest = largest > 0 ? scaled_radius(largest) : std::numeric_limits<double>::infinity();
     all.reach = largest > 0 ? std::min(1.0, 64 * largest * scale) : 1.0;
+    all.reach_in_metres = largest > 0 ? std::min(extent, 64 * largest) : extent;
     auto const scaled_position = [&](std::int32_t i) {
         scaled_point<Dim> x;
-        for (std::size_t axis = 0; axis < dim; ++axis)
-            x[axis] = (double(points(std::size_t(i), int(axis))) - middle[axis]) * scale;
+        for (std::size_t axis = 0; axis < dim; ++axis) x[axis] = (at(i, axis) - middle[axis]) * scale;
         return x;
     };
     auto const apart = [&](std::int32_t i, std::int32_t j) {
         double most = 0;
-        for (int axis = 0; axis < Dim; ++axis)
-            most =
-                std::max(most, std::fabs(double(points(std::size_t(i), axis)) - double(points(std::size_t(j), axis))));
-        return most * scale;
+        for (std::size_t axis = 0; axis < dim; ++axis) most = std::max(most, std::fabs(at(i, axis) - at(j, axis)));
+        return most;
     };
 
     std::vector<std::pair<double, std::int32_t>> order;
-    for (std::int32_t i = 0; i < std::int32_t(points.size()); ++i) order.push_back({along<Dim>(scaled_position(i)), i});
+    for (std::int32_t i = 0; i < count; ++i) order.push_back({along<Dim>(scaled_position(i)), i});
     std::sort(order.begin(), order.end());
     double const same = 1e-10 * all.reach, rounding = 1e-15;
     for (auto const& [key, i] : order) {
-        double const radius = double(radii[i]) * scale;
+        double const radius = scaled_radius(length_of(radii[i]));
         bool distinct = true;
         for (std::size_t k = all.x.size(); distinct && k-- > 0 && key - along<Dim>(all.x[k]) <= 2 * same + rounding;) {
-            if (apart(i, all.particle[k]) > same) continue;
+            if (apart(i, all.particle[k]) > 1e-10 * all.reach_in_metres) continue;
             distinct = false;
-            if (radius > all.radius[k]) {
+            if (radii[i] > radii[all.particle[k]]) {
                 all.particle[k] = i;
                 all.radius[k] = radius;
             }
@@ -145,29 +157,44 @@ scaled_particles<Dim> scale_particles(points_view<Real, Dim> points, Real const*
 }
 
 /// Particles as exact_signs uses them. Scaling by a power of two does not round their positions.
-/// \param shift callable k -> shift of the height |x|^2 - r^2 of particle list[k], m^2
-template <class Real, int Dim, class Shift>
-weighted_sites<Dim> make_sites(std::vector<std::int32_t> const& list, points_view<Real, Dim> points, Real const* radii,
-                               Shift const& shift) {
+template <class Real, int Dim>
+weighted_sites<Dim> make_sites(std::vector<std::int32_t> const& list, points_view<Real, Dim> points,
+                               Real const* radii) {
+    using sites_type = weighted_sites<Dim>;
     double largest = 0;
     for (auto const i : list) {
         for (int axis = 0; axis < Dim; ++axis)
             largest = std::max(largest, std::fabs(double(points(std::size_t(i), axis))));
         largest = std::max(largest, double(radii[i]));
     }
-    double const scale = largest > 0 ? std::ldexp(1.0, -std::ilogb(largest) - 1) : 1;
-    // Products of products of smaller numbers would underflow, and not be exact.
-    auto const scaled = [&](double length) { return std::fabs(length) * scale < 0x1p-160 ? 0 : length * scale; };
-    weighted_sites<Dim> sites;
-    for (std::size_t k = 0; k < list.size(); ++k) {
+    largest = length_of(largest);
+    sites_type sites;
+    if (largest > 0) sites.scale = std::ldexp(1.0, std::min(sites_type::most_exponent - 1 - std::ilogb(largest), 1023));
+    auto const scaled = [&](Real given) {
+        double const length = length_of(given);
+        sites.wide = sites.wide || (length != 0 && std::fabs(length) * sites.scale < sites_type::least);
+        return length * sites.scale;
+    };
+    for (auto const i : list) {
         scaled_point<Dim> x;
-        for (int axis = 0; axis < Dim; ++axis)
-            x[std::size_t(axis)] = scaled(double(points(std::size_t(list[k]), axis)));
+        for (int axis = 0; axis < Dim; ++axis) x[std::size_t(axis)] = scaled(points(std::size_t(i), axis));
         sites.x.push_back(x);
-        sites.radius.push_back(scaled(double(radii[list[k]])));
-        sites.shift.push_back(-shift(k) * scale * scale);
+        sites.radius.push_back(scaled(radii[i]));
     }
-    sites.scale = scale;
+    sites.shift.assign(list.size(), 0);
+    return sites;
+}
+
+/// The same for scaled particles, with their shifts and reach.
+template <class Real, int Dim>
+weighted_sites<Dim> make_sites(scaled_particles<Dim> const& all, points_view<Real, Dim> points, Real const* radii) {
+    auto sites = make_sites(all.particle, points, radii);
+    double const ratio = all.scale / sites.scale, squared_extent = 1 / (ratio * ratio);
+    for (std::size_t k = 0; k < sites.size(); ++k) {
+        double const shift = sites.shift[k] = -(all.shift(k) * squared_extent);
+        sites.wide = sites.wide || (shift != 0 && std::fabs(shift) < sites.least * sites.least);
+    }
+    sites.reach = all.reach_in_metres * sites.scale;
     return sites;
 }
 

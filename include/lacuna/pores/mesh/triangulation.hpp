@@ -29,13 +29,21 @@ namespace detail {
 template <int Dim>
 bool is_degenerate(std::array<std::int32_t, std::size_t(Dim) + 1> const& corner, points_view<double, Dim> points,
              double reach) {
+    double const unit = weighted_sites<Dim>::unit(reach);
+    auto const edge = [&](std::size_t from, std::size_t to) {
+        return (points[std::size_t(corner[to])] - points[std::size_t(corner[from])]) * unit;
+    };
     double longest = 0;
     for (std::size_t a = 0; a < corner.size(); ++a)
-        for (std::size_t b = a + 1; b < corner.size(); ++b)
-            longest = std::max(longest, norm(points[std::size_t(corner[b])] - points[std::size_t(corner[a])]));
-    return longest < weighted_sites<Dim>::longest_degenerate(reach) &&
-           std::fabs(simplex_size<double, Dim>(corner, points)) <=
-               1e-12 * (Dim == 2 ? longest * longest : longest * longest * longest);
+        for (std::size_t b = a + 1; b < corner.size(); ++b) longest = std::max(longest, norm(edge(a, b)));
+    if (!(longest < weighted_sites<Dim>::longest_degenerate(reach * unit))) return false;
+    if constexpr (Dim == 2) {
+        return std::fabs(triangle_area({}, edge(0, 1), edge(0, 2))) <= 1e-12 * (longest * longest);
+    } else {
+        double const size = tetrahedron_volume({}, edge(0, 1), edge(0, 2), edge(0, 3));
+        return std::fabs(size) <= 1e-12 * (longest * longest * longest) &&
+               is_shaped_flat({vec<double, 3>{}, edge(0, 1), edge(0, 2), edge(0, 3)}, 6 * size);
+    }
 }
 
 /// Simplices of the lower hull of (x, |x|^2 - r^2), computed by Qhull.
@@ -82,15 +90,44 @@ pore_mesh<Dim> lower_hull(scaled_particles<Dim> const& all) {
     return mesh;
 }
 
-/// Removes, from outside inwards, simplices of zero size up to rounding. They lie over straight sides of the hull.
+/// Whether a degenerate simplex lies flat over its side opposite a corner. A needle between two close particles and
+/// distant ones does not lie flat over its short side: without it the boundary would have a cut. In the plane the sines
+/// of both angles at the side are within 1e-9. In space, if two of the particles are closer to each other than 1e-3 of
+/// the longest edge, the height is within 1e-4 of it.
+/// \param unit weighted_sites::unit()
+template <int Dim>
+bool is_flat_over(std::array<std::int32_t, std::size_t(Dim) + 1> const& s, std::size_t corner,
+                  points_view<double, Dim> points, double unit) {
+    auto const side = side_of(s, corner);
+    auto const x = [&](std::size_t c) { return points[std::size_t(side[c])] * unit; };
+    vec<double, Dim> const top = points[std::size_t(s[corner])] * unit, to = top - x(0);
+    if constexpr (Dim == 2) {
+        auto const along = x(1) - x(0);
+        double const nearest = std::min(norm(to), norm(top - x(1)));
+        return !(std::fabs(cross(along, to)) / norm(along) > 1e-9 * nearest);
+    } else {
+        auto const across = cross(x(1) - x(0), x(2) - x(0));
+        auto const edges = {norm(x(1) - x(0)), norm(x(2) - x(0)), norm(x(2) - x(1)), norm(to)};
+        double const longest = std::max(edges);
+        return std::min(edges) > 1e-3 * longest || !(std::fabs(dot(across, to)) / norm(across) > 1e-4 * longest);
+    }
+}
+
+/// Removes, from outside inwards, simplices of zero size up to rounding that lie flat over straight sides of the hull.
 template <int Dim>
 void strip_degenerate(pore_mesh<Dim>& mesh, points_view<double, Dim> points, double reach) {
     std::vector<std::uint8_t> removed(mesh.size(), 0);
     std::vector<std::size_t> front;
     auto const look = [&](std::size_t s) {
-        bool outer = false;
-        for (auto const other : mesh.neighbours[s]) outer = outer || other < 0 || removed[std::size_t(other)];
-        if (removed[s] || !outer || !is_degenerate(mesh.simplices[s], points, reach)) return;
+        if (removed[s]) return;
+        bool outer = false, flat = true;
+        for (std::size_t c = 0; c <= std::size_t(Dim); ++c) {
+            auto const other = mesh.neighbours[s][c];
+            if (other >= 0 && !removed[std::size_t(other)]) continue;
+            outer = true;
+            flat = flat && is_flat_over<Dim>(mesh.simplices[s], c, points, weighted_sites<Dim>::unit(reach));
+        }
+        if (!outer || !flat || !is_degenerate(mesh.simplices[s], points, reach)) return;
         removed[s] = 1;
         front.push_back(s);
     };
@@ -144,11 +181,14 @@ struct mesh_part {
 /// The reach below is the extent of the packing, but at most 64 times the largest radius.
 ///   - A particle is a corner of no simplex if others overlap it so much that its power cell is empty.
 ///   - If the centres of several particles coincide (up to 1e-10 of the reach), only the largest becomes a corner.
+///   - A simplex of zero size up to rounding, along a straight side of the hull, is left out.
+///   - A coordinate or radius under 1e-290 m counts as 0.
 ///   - Fewer than Dim + 1 particles give an empty mesh. So do particles on a line (in space: in a plane), up to 1e-9 of
 ///     the reach.
 ///   - If more than Dim + 1 particles lie on one circle or sphere, the choice of diagonals depends on the positions
 ///     alone. In the plane Qhull chooses. In space heights are shifted by up to 1e-7 N^(-2/3) of the squared extent
-///     (N: number of particles), and at most by 6.4e-6 r^2; orthogonal spheres are empty of other particles up to that.
+///     (N: number of particles), and at most by 6.4e-6 r^2 (if r = 0: of the largest r, unless all are 0). Orthogonal
+///     spheres are empty of other particles up to that.
 ///   - In space a regular triangulation may contain nearly flat tetrahedra in the interior: pores of hardly any volume.
 ///
 /// Qhull's result is checked (see detail::regularity), since Qhull rounds by some 1e-15 of the squared extent. That is
@@ -165,10 +205,7 @@ pore_mesh<Dim> regular_triangulation(points_view<Real, Dim> points, Real const* 
     auto const all = detail::scale_particles(points, radii);
     if (detail::lie_flat(all)) return {};
 
-    double const squared_extent = 1 / (all.scale * all.scale);
-    auto sites = detail::make_sites(all.particle, points, radii,
-                                    [&](std::size_t k) { return all.shift(k) * squared_extent; });
-    sites.reach = all.reach / all.scale * sites.scale;
+    auto const sites = detail::make_sites(all, points, radii);
     try {
         auto mesh = detail::lower_hull(all);
         if (detail::is_regular(mesh, all, sites)) return mesh;
@@ -239,7 +276,7 @@ pore_mesh<Dim> triangulate_body(points_view<Real, Dim> points, Real const* radii
 
     std::vector<std::int32_t> all_particles(points.size());
     for (std::size_t i = 0; i < all_particles.size(); ++i) all_particles[i] = std::int32_t(i);
-    auto const sites = detail::make_sites(all_particles, points, radii, [](std::size_t) { return 0.0; });
+    auto const sites = detail::make_sites(all_particles, points, radii);
     detail::exact_signs<Dim> const signs(sites);
     std::vector<detail::mesh_part<Dim>> parts;
     for (bool again = true; again; lists = groups.list()) {

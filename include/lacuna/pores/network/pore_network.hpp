@@ -152,9 +152,9 @@ void finish(pore_network<Real, Dim>& net, std::vector<throat_record<Real, Dim>> 
 
 namespace detail {
 
-/// Refuses a simplex of zero or negative size, and names its corners. \throws particle_refusal, always
+/// Refuses a simplex of zero, negative or too large size, and names its corners. \throws particle_refusal, always
 template <std::size_t Corners, class Real, int Dim>
-[[noreturn]] void refuse_flat(std::array<std::int32_t, Corners> const& corners, points_view<Real, Dim> points,
+[[noreturn]] void refuse_size(std::array<std::int32_t, Corners> const& corners, points_view<Real, Dim> points,
                               double size) {
     std::string who;
     for (auto const i : corners) {
@@ -163,9 +163,10 @@ template <std::size_t Corners, class Real, int Dim>
             who.append(axis == 0 ? "" : ", ").append(to_text(double(points(std::size_t(i), axis))));
         who.append(")");
     }
-    throw particle_refusal("size of the pore between the particles " + who + " m", size,
-                           std::string("> 0: corners of a mesh are in counter-clockwise order, and not on a ") +
-                               (Dim == 2 ? "line" : "plane"),
+    auto const rule = !std::isfinite(size) ? "finite: these numbers cannot hold the size"
+                      : Dim == 2 ? "> 0: corners of a mesh are in counter-clockwise order, and not on a line"
+                                 : "> 0: corners of a mesh are in counter-clockwise order, and not on a plane";
+    throw particle_refusal("size of the pore between the particles " + who + " m", size, rule,
                            {corners.begin(), corners.end()});
 }
 
@@ -180,8 +181,8 @@ template <std::size_t Corners, class Real, int Dim>
 /// \param radii one per particle, m, > 0 at every corner of the mesh
 /// \param boundary callable boundary_throat -> throat_boundary, called once for every throat on the boundary. If it has
 ///        a member sources(), the network's `sources` are set to its result (see flow_boundaries()).
-/// \throws std::invalid_argument for a corner that is no particle, a simplex of no or negative size, a radius or a
-///         pressure out of range, or a source that acts on no throat.
+/// \throws std::invalid_argument for a corner that is no particle, a simplex of no, negative or infinite size, a radius
+///         or a pressure out of range, or a source that acts on no throat.
 template <class Real, int Dim, class Boundary = all_sealed>
 pore_network<Real, Dim> make_pore_network(pore_mesh<Dim> const& mesh, points_view<Real, Dim> points, Real const* radii,
                                           Boundary const& boundary = {}) {
@@ -217,7 +218,8 @@ pore_network<Real, Dim> make_pore_network(pore_mesh<Dim> const& mesh, points_vie
     for (std::size_t t = 0; t < mesh.size(); ++t) {
         auto const& corners = mesh.simplices[t];
         net.size[t] = detail::reference_size(corners, points, radii);
-        if (!(net.size[t] > Real(0))) detail::refuse_flat(corners, points, double(net.size[t]));
+        if (double const size = double(net.size[t]); !(size > 0 && std::isfinite(size)))
+            detail::refuse_size(corners, points, size);
         for (std::size_t c = 0; c <= Dim; ++c) {
             if (!has_throat(t, c)) continue;
             auto const other = mesh.neighbours[t][c];
