@@ -185,9 +185,9 @@ private:
         for (std::size_t w = 0; w < s_.walls.size(); ++w) wall_velocity_.push_back(s_.walls.next_velocity(w));
     }
 
-    /// Falls by ten, but not so far that a mechanism, which moves as 1 / regularisation, would leave the lists. If solves
-    /// lead back and forth, around a state that snaps, it stays above what the turning of the pairs' forces can take
-    /// from the stiffness.
+    /// Falls by ten, but not so far that a mechanism, which moves as 1 / regularisation, would leave the lists. If
+    /// solves lead back and forth, around a state that snaps, it stays above what the turning of the pairs' forces can
+    /// take from the stiffness.
     double next_regularisation(double now, double displacement) const {
         double const least = idle_ > 10 ? std::max(parameters_.regularisation, turning_) : parameters_.regularisation;
         return std::max({now / 10, least, std::min(now, now * 2 * displacement / longest_motion())});

@@ -97,10 +97,17 @@ lacuna::simulation<plane_locally_damped> box(double friction, std::uint64_t seed
     p.interactions.initial_contact_tolerance = 0.02;
     p.damping.factor = 0.7;
     auto const rigid = p.materials[0].contact;
-    p.walls = {{{0, 0}, {0, 1}, rigid}, {{0, 0}, {1, 0}, rigid}, {{size, 0}, {-1, 0}, rigid}, {{0, size}, {0, -1}, rigid}};
-    return lacuna::simulation<plane_locally_damped>(
-        lacuna::random_packing<double>({.width = size, .height = size, .r_min = 0.4, .r_max = 0.5, .area_fraction = size > 10 ? 0.82 : 0.79, .seed = seed}),
-        p);
+    p.walls = {{{0, 0}, {0, 1}, rigid},
+               {{0, 0}, {1, 0}, rigid},
+               {{size, 0}, {-1, 0}, rigid},
+               {{0, size}, {0, -1}, rigid}};
+    auto const discs = lacuna::random_packing<double>({.width = size,
+                                                       .height = size,
+                                                       .r_min = 0.4,
+                                                       .r_max = 0.5,
+                                                       .area_fraction = size > 10 ? 0.82 : 0.79,
+                                                       .seed = seed});
+    return lacuna::simulation<plane_locally_damped>(discs, p);
 }
 
 } // namespace

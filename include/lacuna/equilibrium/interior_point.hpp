@@ -89,7 +89,7 @@ private:
             system_.add_coupling(x, y);
             return y;
         };
-        return solve_coupled(forces_, product, solve, 0.1, 10);
+        return solve_coupled(forces_, product, solve, 1e-2, 20);
     }
 
     System& system_;
