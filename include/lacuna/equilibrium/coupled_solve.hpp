@@ -6,7 +6,7 @@
 #include <vector>
 
 #include <Eigen/Core>
-#include <Eigen/Householder>
+#include <Eigen/QR>
 
 namespace lacuna {
 

@@ -17,7 +17,7 @@ struct equilibrium_scales {
     double force;          ///< expected force between two particles, N
     double regularisation; ///< stiffness added to each freedom, N/m
     double longest;        ///< largest displacement of a freedom in an iteration, m; four times as much in a solve
-    double rounding;       ///< force that stems from the rounding of positions, N
+    double negligible;     ///< force that counts as none, N: at least that of the rounding of positions
 };
 
 /// Solves the equations of an equilibrium_system by the primal-dual interior point method: Newton's method on the
@@ -65,7 +65,7 @@ private:
     static double largest(vector const& x) { return x.size() > 0 ? x.template lpNorm<Eigen::Infinity>() : 0.0; }
     /// Tighter than what is asked for: the exact laws, which judge the result, differ a little.
     double tolerance() const {
-        return std::max(0.1 * parameters_.tolerance * system_.largest_force(), scales_.rounding);
+        return std::max(0.1 * parameters_.tolerance * system_.largest_force(), scales_.negligible);
     }
     /// Barrier at which a contact that just touches has a force of the tolerance.
     double least_barrier() const { return tolerance() * tolerance() / scales_.stiffness; }
