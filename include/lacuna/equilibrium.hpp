@@ -171,7 +171,6 @@ private:
     bool make_increment(double regularisation, double longest, equilibrium_result& result) {
         double const share = begin_increment(0.2 * longest_motion());
         auto const scales = find_scales(longest, regularisation);
-        negligible_ = scales.negligible;
         if (!interior_point(system_, scales, parameters_).solve(increment_)) {
             system_.restore();
             return false;
@@ -228,7 +227,7 @@ private:
     double longest_motion() const { return 0.49 * std::min(s_.pairs.remaining(), s_.walls.remaining()); }
 
     equilibrium_scales find_scales(double longest, double regularisation) {
-        equilibrium_scales scales{1, 0, 0, longest, 0};
+        equilibrium_scales scales{1, 0, 0, longest, 0, 0};
         std::vector<double> stiffness;
         double squares = 0;
         std::size_t count = 0;
@@ -252,10 +251,14 @@ private:
             for (int axis = 0; axis < dim; ++axis) extent = std::max(extent, std::fabs(s_.store.position(k)[axis]));
         // Given displacements may end in a state without any force, of which no share can be a tolerance.
         if (!(system_.total_load() > 0))
-            resistance_ = std::max(resistance_, 1e-3 * scales.stiffness * system_.largest_given());
-        scales.negligible = std::max(8 * std::numeric_limits<double>::epsilon() * extent * scales.stiffness,
-                                     0.1 * parameters_.tolerance * resistance_);
+            resistance_ = std::max(resistance_, 1e-2 * scales.stiffness * system_.largest_given());
+        negligible_ = std::max(8 * std::numeric_limits<double>::epsilon() * extent * scales.stiffness,
+                               0.1 * parameters_.tolerance * resistance_);
         scales.regularisation = regularisation * scales.stiffness;
+        // Where nothing else resists, the forces are those of the regularisation: to solve further has no meaning.
+        double const given = system_.largest_given();
+        scales.negligible = std::max(negligible_, 4 * scales.regularisation * given);
+        scales.barrier = 1e-4 * scales.regularisation * given * given;
         return scales;
     }
 
