@@ -99,6 +99,7 @@ public:
         double const radius = median_radius(s_.store.radii());
         double regularisation = parameters_.regularisation;
         int const factorised = system_.matrix().factorisations();
+        resistance_ = 0;
         for (idle_ = 0; idle_ < parameters_.solves && regularisation < 1e6; ++idle_) {
             ++result.solves;
             if (!make_increment(regularisation, 0.25 * radius, result)) {
@@ -199,7 +200,6 @@ private:
     bool make_increment(double regularisation, double longest, equilibrium_result& result) {
         double const share = begin_increment(0.2 * longest_motion());
         auto const scales = find_scales(longest, regularisation);
-        rounding_ = scales.rounding;
         if (!interior_point(system_, scales, parameters_).solve(increment_)) {
             system_.restore();
             return false;
@@ -229,7 +229,7 @@ private:
         result.unbalanced = forces.size() > 0 ? forces.lpNorm<Eigen::Infinity>() : 0.0;
         result.largest_force = system_.largest_force();
         bool const balanced =
-            result.unbalanced <= std::max(parameters_.tolerance * result.largest_force, 4 * rounding_);
+            result.unbalanced <= std::max(parameters_.tolerance * result.largest_force, 4 * negligible_);
         if (balanced && last_.whole) result.outcome = equilibrium_outcome::reached;
         return balanced;
     }
@@ -259,8 +259,8 @@ private:
     /// No two particles outside the candidates may meet within a solve.
     double longest_motion() const { return 0.49 * std::min(s_.pairs.remaining(), s_.walls.remaining()); }
 
-    equilibrium_scales find_scales(double longest, double regularisation) const {
-        equilibrium_scales scales{1, 0, 0, longest, 0};
+    equilibrium_scales find_scales(double longest, double regularisation) {
+        equilibrium_scales scales{1, 0, 0, longest, 0, 0};
         std::vector<double> stiffness;
         double squares = 0;
         std::size_t count = 0;
@@ -285,8 +285,16 @@ private:
         double extent = 0;
         for (std::size_t k = 0; k < s_.store.size(); ++k)
             for (int axis = 0; axis < dim; ++axis) extent = std::max(extent, std::fabs(s_.store.position(k)[axis]));
-        scales.rounding = 8 * std::numeric_limits<double>::epsilon() * extent * scales.stiffness;
+        // Given displacements may end in a state without any force, of which no share can be a tolerance.
+        if (!(system_.total_load() > 0))
+            resistance_ = std::max(resistance_, 1e-2 * scales.stiffness * system_.largest_given());
+        negligible_ = std::max(8 * std::numeric_limits<double>::epsilon() * extent * scales.stiffness,
+                               0.1 * parameters_.tolerance * resistance_);
         scales.regularisation = regularisation * scales.stiffness;
+        // Where nothing else resists, the forces are those of the regularisation: to solve further has no meaning.
+        double const given = system_.largest_given();
+        scales.negligible = std::max(negligible_, 4 * scales.regularisation * given);
+        scales.barrier = 1e-4 * scales.regularisation * given * given;
         return scales;
     }
 
@@ -350,9 +358,9 @@ private:
     std::vector<point> wall_given_;
     std::vector<event_type> events_;
     Eigen::VectorXd increment_;
-    double rounding_ = 0;
+    double negligible_ = 0, resistance_ = 0; // forces, N
     double turning_ = 0; // largest force over the distance of the particles and the stiffness, 1
-    int idle_ = 0; // solves since the last bond failed
+    int idle_ = 0;       // solves since the last bond failed
     struct {
         bool whole; // whether the simulation moved by the whole increment
         std::size_t failures;

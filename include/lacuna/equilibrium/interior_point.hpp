@@ -17,7 +17,8 @@ struct equilibrium_scales {
     double force;          ///< expected force between two particles, N
     double regularisation; ///< stiffness added to each freedom, N/m
     double longest;        ///< largest displacement of a freedom in an iteration, m; four times as much in a solve
-    double rounding;       ///< force that stems from the rounding of positions, N
+    double negligible;     ///< force that counts as none, N: of the rounding of positions, of the regularisation
+    double barrier;        ///< barrier that counts as none, J
 };
 
 /// Solves the equations of an equilibrium_system by the primal-dual interior point method: Newton's method on the
@@ -65,10 +66,10 @@ private:
     static double largest(vector const& x) { return x.size() > 0 ? x.template lpNorm<Eigen::Infinity>() : 0.0; }
     /// Tighter than what is asked for: the exact laws, which judge the result, differ a little.
     double tolerance() const {
-        return std::max(0.1 * parameters_.tolerance * system_.largest_force(), scales_.rounding);
+        return std::max(0.1 * parameters_.tolerance * system_.largest_force(), scales_.negligible);
     }
     /// Barrier at which a contact that just touches has a force of the tolerance.
-    double least_barrier() const { return tolerance() * tolerance() / scales_.stiffness; }
+    double least_barrier() const { return std::max(tolerance() * tolerance() / scales_.stiffness, scales_.barrier); }
     bool converged() const {
         return error_ <= tolerance() && (!contacts() || system_.mean_product() <= 4 * least_barrier());
     }
@@ -77,7 +78,7 @@ private:
     void lower_barrier() {
         double const product = system_.mean_product();
         double const factor = share_ > 0.9 ? 0.1 : share_ > 0.5 ? 0.3 : 0.7;
-        double const wait = std::min(product, 0.05 * error_ * error_ / scales_.stiffness);
+        double const wait = std::min(product, 0.3 * error_ * error_ / scales_.stiffness);
         goal_ = std::max({0.5 * least_barrier(), factor * product, wait});
     }
     vector find_step() {
@@ -89,7 +90,8 @@ private:
             system_.add_coupling(x, y);
             return y;
         };
-        return solve_coupled(forces_, product, solve, 1e-2, 20);
+        // A coarser tolerance leaves what the floppy particles hide: then Newton's method converges slowly.
+        return solve_coupled(forces_, product, solve, 1e-3, 40);
     }
 
     System& system_;
