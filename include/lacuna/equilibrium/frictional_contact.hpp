@@ -10,8 +10,8 @@
 namespace lacuna {
 
 /// One contact in the primal-dual interior point. Its unknowns are the overlap o of its springs, the gap s, the shear
-/// force t, its margin c to the limit of friction and the sliding p per shear force. Its equations, with the distance d,
-/// the distance L at which the force begins, the law's normal force F(o) and shear stiffness k_s, and the friction f:
+/// force t, its margin c to the limit of friction and the sliding p per shear force. Its equations, with the distance
+/// d, the distance L at which the force begins, the law's normal force F(o) and shear stiffness k_s, and the friction f:
 ///
 ///   d - L + o - s = 0                              springs and gap fill the distance
 ///   F(o) s = m                                     force or gap
@@ -112,8 +112,8 @@ public:
     }
     /// Largest share of the step, at most 1, that leaves spring and gap positive.
     double longest_step() const noexcept { return std::min({1.0, room(overlap_, overlap_step_), room(gap_, gap_step_)}); }
-    /// Makes a share of the step. Margin and sliding take a smaller one where they would vanish: a contact that is about
-    /// to slide must not stop all others.
+    /// Makes a share of the step. Margin and sliding take a smaller one where they would vanish: a contact that is
+    /// about to slide must not stop all others.
     template <class Formula>
     void advance(Formula const& formula, double share) {
         overlap_ += share * overlap_step_;
