@@ -176,7 +176,8 @@ simulation<damped> slope(double steepness, rotation const& q) {
 
 } // namespace
 
-TEST_CASE("equilibrium in space: a sphere on a slope holds below the angle of friction", "[equilibrium][3d][friction]") {
+TEST_CASE("equilibrium in space: a sphere on a slope holds below the angle of friction",
+          "[equilibrium][3d][friction]") {
     std::vector<double> overlaps;
     for (auto const& q : {as_is, turned}) {
         double const steep = 0.95 * 0.5;
@@ -288,7 +289,8 @@ simulation<damped> block(double friction) {
         for (int b = 0; b < n; ++b)
             for (int a = 0; a < n; ++a) {
                 auto const id = spheres.size();
-                spheres.add({a + 0.5 * ((b + c) % 2), (b + (c % 2) / 3.0) * row, c * layer}, 0.4999 + 0.0001 * noise(id, 1));
+                spheres.add({a + 0.5 * ((b + c) % 2), (b + (c % 2) / 3.0) * row, c * layer},
+                            0.4999 + 0.0001 * noise(id, 1));
             }
     point const low{-0.5, -0.5, -0.5}, high{n - 0.5 + 0.5, (n - 1 + 1 / 3.0) * row + 0.5, (n - 1) * layer + 0.5};
     for (int axis = 0; axis < 3; ++axis) {
