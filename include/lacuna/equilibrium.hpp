@@ -100,6 +100,8 @@ public:
         double regularisation = parameters_.regularisation;
         int const factorised = system_.matrix().factorisations();
         resistance_ = 0;
+        reversals_ = 0;
+        before_ = {};
         for (idle_ = 0; idle_ < parameters_.solves && regularisation < 1e6; ++idle_) {
             ++result.solves;
             if (!make_increment(regularisation, 0.25 * radius, result)) {
@@ -190,8 +192,15 @@ private:
     /// solves lead back and forth, around a state that snaps, it stays above what the turning of the pairs' forces can
     /// take from the stiffness.
     double next_regularisation(double now, double displacement) const {
-        double const least = idle_ > 10 ? std::max(parameters_.regularisation, turning_) : parameters_.regularisation;
+        double const least =
+            reversals_ > 3 ? std::max(parameters_.regularisation, turning_) : parameters_.regularisation;
         return std::max({now / 10, least, std::min(now, now * 2 * displacement / longest_motion())});
+    }
+    /// Counts the increments that lead back.
+    void count_reversal() {
+        double const size = increment_.norm() * before_.norm();
+        reversals_ += before_.size() == increment_.size() && increment_.dot(before_) < -0.5 * size;
+        before_ = increment_;
     }
     bool given_remains() const noexcept { return !given_.empty() || !wall_given_.empty(); }
     /// Solves for one increment and moves the simulation by the share of it that its lists and bonds allow.
@@ -216,6 +225,7 @@ private:
         result.complementarity =
             system_.largest_product() * scales.stiffness / (system_.largest_force() * system_.largest_force());
         turning_ = system_.largest_force() / (2 * median_radius(s_.store.radii()) * scales.stiffness);
+        count_reversal();
         last_ = {part == 1, commit(part)};
         if (result.trials.size() == 1 && last_.failures == 0) result.first_failure = 1;
         reduce_given(share * part);
@@ -357,7 +367,8 @@ private:
     std::vector<double> given_; // displacements still to be made, of all freedoms, m
     std::vector<point> wall_given_;
     std::vector<event_type> events_;
-    Eigen::VectorXd increment_;
+    Eigen::VectorXd increment_, before_;
+    int reversals_ = 0;
     double negligible_ = 0, resistance_ = 0; // forces, N
     double turning_ = 0; // largest force over the distance of the particles and the stiffness, 1
     int idle_ = 0;       // solves since the last bond failed

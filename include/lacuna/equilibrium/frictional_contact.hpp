@@ -10,19 +10,15 @@
 namespace lacuna {
 
 /// One contact in the primal-dual interior point. Its unknowns are the overlap o of its springs, the gap s, the shear
-/// force t, its margin c to the limit of friction and the sliding p per shear force. Its equations, with the distance d,
-/// the distance L at which the force begins, the law's normal force F(o) and shear stiffness k_s, and the friction f:
+/// force t and the sliding p per shear force. Its equations, with the distance d, the distance L at which the force
+/// begins, the law's normal force F(o) and shear stiffness k_s, and the friction f:
 ///
 ///   d - L + o - s = 0                              springs and gap fill the distance
 ///   F(o) s = m                                     force or gap
 ///   slip - (t - t_0) / k_s - p t = 0               slip is elastic or plastic
-///   f F - |t|^2 / (f F) - c = 0                    the margin c of the shear force
-///   p c f F = 2 m                                  stick, or slide against the shear force
+///   p ((f F)^2 - |t|^2) = 2 m                      stick, or slide against the shear force
 ///
-/// The margin is an unknown of its own, so that the shear force may reach its limit in a step without stopping it. In
-/// this form the cone is concave: its linearisation lies outside of it.
-///
-/// The solver lowers the barrier m to practically nothing. Newton's step eliminates these unknowns pair by pair, so
+/// The solver lowers the barrier m to practically nothing. Newton's step eliminates the four unknowns pair by pair, so
 /// that the matrix of the particles keeps the pattern of their stiffness. In space this is Coulomb's cone, in the plane
 /// an interval. See Nocedal and Wright 2006, Numerical Optimization, chapter 19, for the method.
 template <int Dim>
@@ -45,7 +41,6 @@ public:
         if (!rough()) return;
         double const limit = friction_ * force_, size = norm(shear_force);
         shear_ = size > 0.95 * limit ? shear_force * (0.95 * limit / size) : shear_force;
-        margin_ = cone() / limit;
         sliding_ = 2 * barrier / cone();
     }
 
@@ -64,25 +59,22 @@ public:
         weight_ = force_ / (gap_ + force_ / stiffness_);
         if (!rough()) return;
         flexibility_ = 1 / shear_stiffness_ + sliding_;
-        bend_ = 2 * sliding_ / (margin_ * friction_ * force_);
+        bend_ = 2 * sliding_ / cone();
         shear_residual_ = slip - (shear_ - before_) / shear_stiffness_ - shear_ * sliding_;
     }
     /// Chooses the barrier at which the next step aims.
     void aim(double barrier) noexcept {
         push_ = (barrier - force_ * gap_ - force_ * normal_residual_) / (gap_ + force_ / stiffness_);
         if (!rough()) return;
+        double const c = cone();
         barrier_ = 2 * barrier;
-        double const limit = friction_ * force_, both = margin_ * limit;
-        pull_ = soften(shear_residual_ - shear_ * ((barrier_ - sliding_ * cone()) / both));
-        follow_ = soften(shear_) * (sliding_ * friction_ * (margin_ + limit + squared_norm(shear_) / limit) / both);
+        pull_ = soften(shear_residual_ - shear_ * ((barrier_ - sliding_ * c) / c));
+        follow_ = soften(shear_) * (2 * sliding_ * friction_ * friction_ * force_ / c);
     }
     /// Larger error of the equations of the distance and of the slip, as the force that it stands for, N.
     double residual() const noexcept {
         double const along = std::fabs(normal_residual_) * weight_;
-        if (!rough()) return along;
-        double const limit = friction_ * force_;
-        double const beside = std::fabs(cone() - margin_ * limit) / (limit + norm(shear_));
-        return std::max({along, norm(soften(shear_residual_)), beside});
+        return rough() ? std::max(along, norm(soften(shear_residual_))) : along;
     }
     /// Change of the normal force per approach, N/m.
     double weight() const noexcept { return weight_; }
@@ -105,35 +97,51 @@ public:
         gap_step_ = distance + overlap_step_ + normal_residual_;
         if (!rough()) return;
         shear_step_ = soften(slip) + pull_ + follow_ * force_step_;
-        double const limit = friction_ * force_, rise = friction_ * force_step_;
-        double const bulge = squared_norm(shear_) / limit, along = 2 * dot(shear_, shear_step_);
-        margin_step_ = (1 + bulge / limit) * rise - along / limit + cone() / limit - margin_;
-        sliding_step_ =
-            (barrier_ - sliding_ * (cone() + (margin_ + limit + bulge) * rise - along)) / (margin_ * limit);
+        double const c = cone();
+        sliding_step_ = (barrier_ - sliding_ * c -
+                         2 * sliding_ * friction_ * friction_ * force_ * force_step_ +
+                         2 * sliding_ * dot(shear_, shear_step_)) / c;
     }
     /// Largest share of the step, at most 1, that leaves spring and gap positive.
     double longest_step() const noexcept {
         return std::min({1.0, room(overlap_, overlap_step_), room(gap_, gap_step_)});
     }
-    /// Makes a share of the step. Margin and sliding take a smaller one where they would vanish: a contact that is about
-    /// to slide must not stop all others.
+    /// Makes a share of the step. Friction takes a smaller share where its limit is closer: a contact that is about to
+    /// slide must not stop all others.
     template <class Formula>
     void advance(Formula const& formula, double share) {
+        double const margin = rough() ? slide(std::min(share, 0.9 * longest_slide())) : 0;
         overlap_ += share * overlap_step_;
         gap_ += share * gap_step_;
         update(formula);
         if (!rough()) return;
-        shear_ += shear_step_ * share;
+        // The limit follows the normal force. Where it has come close, the shear force keeps its relative distance.
         double const limit = friction_ * force_, size = norm(shear_);
-        if (size > limit) shear_ = shear_ * (limit / size);
-        margin_ += std::min(share, 0.9 * room(margin_, margin_step_)) * margin_step_;
-        margin_ = std::max(margin_, cone() / limit);
-        sliding_ += std::min(share, 0.9 * room(sliding_, sliding_step_)) * sliding_step_;
+        if (limit - size < 0.1 * margin * limit) shear_ = shear_ * (limit * (1 - std::max(margin, 1e-12)) / size);
     }
 
 private:
     /// Share of a step after which a positive value is zero.
     static double room(double value, double step) noexcept { return step < 0 ? -value / step : 1.0; }
+    /// Largest share of the step that leaves the shear force below its limit, which moves too.
+    double longest_slide() const noexcept {
+        double const f2 = friction_ * friction_;
+        double const a = f2 * force_step_ * force_step_ - squared_norm(shear_step_);
+        double const b = f2 * force_ * force_step_ - dot(shear_, shear_step_), c = cone();
+        double share = std::min(1.0, room(sliding_, sliding_step_));
+        // The smallest positive root of a x^2 + 2 b x + c.
+        double const root = b * b - a * c;
+        if (root >= 0 && (b < 0 || a < 0))
+            if (double const x = c / (std::sqrt(root) - b); x > 0) share = std::min(share, x);
+        return share;
+    }
+    /// \return distance of the shear force from its old limit, as a share of it
+    double slide(double share) noexcept {
+        shear_ += shear_step_ * share;
+        sliding_ += share * sliding_step_;
+        double const limit = friction_ * force_;
+        return std::clamp((limit - norm(shear_)) / limit, 0.0, 1.0);
+    }
     double cone() const noexcept {
         double const limit = friction_ * force_;
         return (limit - norm(shear_)) * (limit + norm(shear_));
@@ -167,11 +175,11 @@ private:
     }
 
     double friction_ = 0;
-    double overlap_ = 0, gap_ = 0, force_ = 0, stiffness_ = 0, shear_stiffness_ = 0, sliding_ = 0, margin_ = 1;
+    double overlap_ = 0, gap_ = 0, force_ = 0, stiffness_ = 0, shear_stiffness_ = 0, sliding_ = 0;
     shear shear_{}, before_{};
     double normal_residual_ = 0, weight_ = 0, push_ = 0, flexibility_ = 1, bend_ = 0, barrier_ = 0;
     shear shear_residual_{}, pull_{}, follow_{};
-    double force_step_ = 0, overlap_step_ = 0, gap_step_ = 0, sliding_step_ = 0, margin_step_ = 0;
+    double force_step_ = 0, overlap_step_ = 0, gap_step_ = 0, sliding_step_ = 0;
     shear shear_step_{};
 };
 

@@ -25,7 +25,7 @@ struct equilibrium_parameters {
     double regularisation = 1e-9;
     /// A model whose particles move further than this at constant load, without coming to rest, is a mechanism; as a
     /// share of the median radius, 1; > 0.
-    double largest_motion = 2;
+    double largest_motion = 4;
     int iterations = 200; ///< largest number of iterations of one solve; >= 1
     int solves = 200;     ///< largest number of solves at one load; >= 1
     pore_condition pores = pore_condition::sealed;
