@@ -100,6 +100,7 @@ public:
         double regularisation = parameters_.regularisation;
         int const factorised = system_.matrix().factorisations();
         resistance_ = 0;
+        tightness_ = 1;
         reversals_ = 0;
         before_ = {};
         for (idle_ = 0; idle_ < parameters_.solves && regularisation < 1e6; ++idle_) {
@@ -111,6 +112,7 @@ public:
             if (last_.failures > 0) idle_ = 0;
             if (last_.failures > 0 || given_remains()) continue;
             if (check_balance(result) && last_.whole) break;
+            if (last_.whole) tightness_ = std::max(tightness_ / 3, 1e-4);
             if (result.displacement > parameters_.largest_motion * radius) {
                 result.outcome = equilibrium_outcome::mechanism;
                 break;
@@ -151,6 +153,8 @@ private:
         for (std::size_t w = 0; w < s_.walls.size(); ++w)
             if (s_.wall_motions.has_servo(w))
                 refuse("wall " + std::to_string(w), "moved by a servo", "still for an equilibrium");
+        // Before anything changes: it refuses laws.
+        system_.begin({}, {}, parameters_.pores == pore_condition::drained, sim_.clock_.time());
         events_.clear();
         remember_prescribed();
         double const last = sim_.clock_.step() > 0 ? sim_.clock_.previous_step() : 0.0;
@@ -209,7 +213,9 @@ private:
     bool make_increment(double regularisation, double longest, equilibrium_result& result) {
         double const share = begin_increment(0.2 * longest_motion());
         auto const scales = find_scales(longest, regularisation);
-        if (!interior_point(system_, scales, parameters_).solve(increment_)) {
+        auto tighter = parameters_;
+        tighter.tolerance *= tightness_;
+        if (!interior_point(system_, scales, tighter).solve(increment_)) {
             system_.restore();
             return false;
         }
@@ -370,6 +376,7 @@ private:
     Eigen::VectorXd increment_, before_;
     int reversals_ = 0;
     double negligible_ = 0, resistance_ = 0; // forces, N
+    double tightness_ = 1; // of a solve beside that of the result, which is judged by the exact laws
     double turning_ = 0; // largest force over the distance of the particles and the stiffness, 1
     int idle_ = 0;       // solves since the last bond failed
     struct {

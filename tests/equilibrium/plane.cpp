@@ -306,6 +306,31 @@ TEST_CASE("none of twenty packings with a friction of 1 fails", "[equilibrium]")
     REQUIRE(failures == 0);
 }
 
+TEST_CASE("an equilibrium in the middle of a run stops what moves freely and keeps what is prescribed",
+          "[equilibrium]") {
+    auto p = springs<plane_locally_damped>(1e8, 5e7, 0.3, 1000);
+    p.damping.factor = 0.3;
+    p.gravity = {0, -9.81};
+    auto const rigid = p.materials[0].contact;
+    p.walls = {{{0, -0.5}, {0, 1}, rigid}, {{-0.5, 0}, {1, 0}, rigid}, {{8, 0}, {-1, 0}, rigid}};
+    auto discs = lattice(8, 8, true);
+    discs.bonds.clear();
+    lacuna::simulation<plane_locally_damped> sim(discs, p);
+    sim.prescribe_velocity(62, {0, -0.01});
+    sim.run(300);
+    REQUIRE(norm(sim.velocity(20)) > 1e-3);
+    auto const held = sim.position(62);
+    lacuna::equilibrium<plane_locally_damped> eq(sim);
+    REQUIRE(eq.solve().reached());
+    REQUIRE(sim.velocity(62) == lacuna::vec<double, 2>{0, -0.01});
+    REQUIRE(sim.velocity(20) == lacuna::vec<double, 2>{});
+    REQUIRE(sim.position(62) == held);
+    sim.prescribe_velocity(62, {});
+    auto const rest = sim.position(20);
+    sim.run(500);
+    REQUIRE(norm(sim.position(20) - rest) < 1e-6);
+}
+
 TEST_CASE("what no equilibrium knows is refused with its name", "[equilibrium]") {
     lacuna::simulation<plane> sim(chain<2>(2, false), springs<plane>(1, 1));
     lacuna::equilibrium<plane> eq(sim);
@@ -318,11 +343,13 @@ TEST_CASE("what no equilibrium knows is refused with its name", "[equilibrium]")
 
     lacuna::simulation_parameters<softening> p;
     lacuna::simulation<softening> soft(chain<2>(2, false), p);
+    soft.set_velocity(1, {0.1, 0});
     lacuna::equilibrium<softening> never_there(soft);
     auto const why = thrown_by([&] { never_there.solve(); });
     CAPTURE(why);
     REQUIRE(why.find("contact law = a force of") == 0);
     REQUIRE(why.find("must be a force that grows with the overlap") != std::string::npos);
+    REQUIRE(soft.velocity(1)[0] == 0.1); // a refusal changes nothing
 
     auto with_servo = box(0.1, 1, 8);
     with_servo.servo_wall(3, {.stress = 1e3, .area = 8, .max_speed = 1});
