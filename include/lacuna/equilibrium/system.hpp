@@ -493,7 +493,7 @@ private:
         typename matrices::point const now = matrices::force(c.frame, -c.point.force(), c.point.shear_force());
         note(now.norm());
         carried_[c.i] += now.norm();
-        if (c.wall < 0) carried_[c.j] += now.norm();
+        if (!c.at_wall()) carried_[c.j] += now.norm();
         scatter(c, now, 1.0, forces);
         auto const n = matrices::to_eigen(c.frame.normal);
         typename matrices::tensor k = n * n.transpose() * c.point.weight();
