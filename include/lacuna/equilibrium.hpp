@@ -76,12 +76,15 @@ public:
             given_[k * std::size_t(per_particle) + std::size_t(dim + r)] = angle[r] * s_.store.radius(k);
         }
     }
-    /// Displaces a wall in the next solve().
+    /// Displaces a wall in the next solve(). A wall that a servo moves goes where the stress on it is the servo's.
     /// \param displacement m
+    /// \throws std::invalid_argument for a wall that a servo moves
     void move_wall(std::size_t w, point const& displacement) {
         require_in("wall", double(w), 0, double(s_.walls.size()) - 1);
         for (int axis = 0; axis < dim; ++axis)
             require_finite("displacement of wall " + std::to_string(w), displacement[axis]);
+        if (s_.wall_motions.has_servo(w))
+            refuse("wall " + std::to_string(w), "moved by a servo", "free of it to be moved");
         wall_given_.resize(s_.walls.size());
         wall_given_[w] = displacement;
     }
@@ -92,7 +95,7 @@ public:
     /// begins from there at the same loads. See events().
     /// \throws std::logic_error for a model with fluid whose pores are not filled
     /// \throws std::invalid_argument for a contact law whose force does not grow with the overlap, and for parts of a
-    ///         simulation that no equilibrium knows: servo walls, merged pores
+    ///         simulation that no equilibrium knows: merged pores
     equilibrium_result solve() {
         begin();
         equilibrium_result result;
@@ -150,9 +153,6 @@ private:
             if (double const merged = s_.fluid.get()->settings().merge_conductance; std::isfinite(merged))
                 refuse("flow.merge_conductance", merged, "infinite for an equilibrium");
         }
-        for (std::size_t w = 0; w < s_.walls.size(); ++w)
-            if (s_.wall_motions.has_servo(w))
-                refuse("wall " + std::to_string(w), "moved by a servo", "still for an equilibrium");
         // Before anything changes: it refuses laws.
         system_.begin({}, {}, parameters_.pores == pore_condition::drained, sim_.clock_.time());
         events_.clear();
@@ -320,7 +320,7 @@ private:
         system_.displace(increment_, share);
         double most = 0;
         for (std::size_t k = 0; k < s_.store.size(); ++k) most = std::max(most, norm(s_.store.velocity(k)));
-        for (std::size_t w = 0; w < s_.walls.size(); ++w) s_.walls.set_velocity(w, system_.wall_motion()[w] * share);
+        for (std::size_t w = 0; w < s_.walls.size(); ++w) s_.walls.set_velocity(w, system_.wall_motion()[w]);
         if (s_.walls.size() > 0) s_.walls.advance(1.0);
         for (int c = 0; c < s_.pairs.chunks(); ++c) s_.pairs.add_path(c, most);
         for (std::size_t b = 0; b * s_.walls.block_particles < s_.store.size(); ++b) s_.walls.add_path(b, most);

@@ -294,6 +294,20 @@ TEST_CASE("packings with friction from 0 to 1 come to equilibrium, and stay ther
         }
 }
 
+TEST_CASE("servo walls go where the stress on them is the servo's", "[equilibrium]") {
+    auto sim = box(0.3, 2, 8);
+    // All around but for the floor and the left side; the area follows the walls.
+    sim.servo_wall(3, {.stress = 1e5, .max_speed = 1, .between = {{{1, 2}}}});
+    sim.servo_wall(2, {.stress = 0.6e5, .max_speed = 1, .between = {{{0, 3}}}});
+    lacuna::equilibrium<plane_locally_damped> eq(sim);
+    REQUIRE(eq.solve().reached());
+    auto const& walls = sim.walls();
+    double const width = walls.point(2)[0] - walls.point(1)[0], height = walls.point(3)[1] - walls.point(0)[1];
+    REQUIRE(height < 8);
+    REQUIRE_THAT(walls.force(3)[1], WithinRel(1e5 * width, 1e-4));
+    REQUIRE_THAT(walls.force(2)[0], WithinRel(0.6e5 * height, 1e-4));
+}
+
 TEST_CASE("none of twenty packings with a friction of 1 fails", "[equilibrium]") {
     int failures = 0;
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {
@@ -354,5 +368,6 @@ TEST_CASE("what no equilibrium knows is refused with its name", "[equilibrium]")
     auto with_servo = box(0.1, 1, 8);
     with_servo.servo_wall(3, {.stress = 1e3, .area = 8, .max_speed = 1});
     lacuna::equilibrium<plane_locally_damped> held(with_servo);
-    REQUIRE(thrown_by([&] { held.solve(); }) == "wall 3 = moved by a servo: must be still for an equilibrium");
+    REQUIRE(thrown_by([&] { held.move_wall(3, {0, -1}); }) ==
+            "wall 3 = moved by a servo: must be free of it to be moved");
 }

@@ -52,13 +52,16 @@ public:
     /// \param time at which the model's own forces act, s
     void begin(std::span<double const> given, std::span<point const> wall_motion, bool drained, double time) {
         time_ = time;
-        numbers_ = unknowns<dim>(s_.store, s_.plates);
+        std::vector<char> free_walls;
+        for (std::size_t w = 0; w < s_.walls.size(); ++w) free_walls.push_back(s_.wall_motions.has_servo(w));
+        numbers_ = unknowns<dim>(s_.store, s_.plates, free_walls);
         drained_ = drained;
         given_.assign(given.begin(), given.end());
         given_.resize(s_.store.size() * std::size_t(per_particle), 0.0);
         motion_.assign(given_.size(), 0.0);
         wall_motion_.assign(wall_motion.begin(), wall_motion.end());
         wall_motion_.resize(s_.walls.size(), point{});
+        wall_now_ = wall_motion_;
         start_.resize(s_.store.size());
         for (std::size_t k = 0; k < s_.store.size(); ++k) start_[k] = s_.store.position(k);
         matrix_.begin(numbers_.count());
@@ -82,6 +85,8 @@ public:
     double total_load() const {
         double sum = 0;
         for (std::size_t k = 0; k < s_.store.size(); ++k) sum += norm(s_.store.applied_force(k));
+        for (std::size_t w = 0; w < s_.walls.size(); ++w)
+            if (s_.wall_motions.has_servo(w)) sum += s_.wall_motions.servo_force(s_.walls, w);
         return sum;
     }
     /// Largest displacement that is given, m.
@@ -201,10 +206,9 @@ public:
             scatter_bond(b, f, forces);
         }
         for (auto& c : contacts_) {
-            c.frame = c.at_wall() ? wall_frame(c) : pair_frame_of(c.i, c.j);
+            update_frame(c);
             auto const answer =
                 ContactLaw::evaluate(*c.row, c.frame.motion, detail::turned<ContactLaw, dim>(c.state, c.frame));
-            c.b = matrices::relative_displacement(c.frame);
             typename matrices::point const f = matrices::force(c.frame, answer.normal_force, answer.shear_force);
             note(f.norm());
             scatter(c, f, 1.0, forces);
@@ -246,7 +250,8 @@ public:
     double largest_motion(vector const& u) const {
         return std::max(u.size() > 0 ? u.lpNorm<Eigen::Infinity>() : 0.0, largest_given());
     }
-    std::vector<point> const& wall_motion() const noexcept { return wall_motion_; }
+    /// Displacements of the walls at the increment at which the forces were found last, m.
+    std::vector<point> const& wall_motion() const noexcept { return wall_now_; }
 
 private:
     using ContactLaw = typename Model::contact_law;
@@ -312,9 +317,16 @@ private:
     template <class Row, class History>
     void add_contact_element(std::size_t i, std::size_t j, int wall, Row const& row, History const& state,
                              double radius_j) {
-        std::size_t const element = wall >= 0 ? matrix_.add_element(numbers_.of(i)) : add_pair(i, j);
+        std::size_t const element = wall >= 0 ? add_at_wall(i, std::size_t(wall)) : add_pair(i, j);
         contacts_.push_back({i, j, element, wall, &row, state,
                              contact_formula<ContactLaw, dim>(row, state, s_.store.radius(i), radius_j)});
+    }
+    std::size_t add_at_wall(std::size_t i, std::size_t w) {
+        std::array<int, std::size_t(2 * per_particle)> n{};
+        n.fill(-1);
+        std::copy_n(numbers_.of(i).begin(), per_particle, n.begin());
+        n[std::size_t(per_particle)] = numbers_.of_wall(w);
+        return matrix_.add_element(n);
     }
     std::size_t add_pair(std::size_t i, std::size_t j) {
         std::array<int, std::size_t(2 * per_particle)> n{};
@@ -349,6 +361,10 @@ private:
             for (int axis = 0; axis < dim; ++axis) x[axis] += motion(k, axis);
             s_.store.set_position(k, x);
         }
+        for (std::size_t w = 0; w < wall_motion_.size(); ++w) {
+            int const n = numbers_.of_wall(w);
+            wall_now_[w] = (n >= 0 ? s_.walls.normal(w) * u[n] : wall_motion_[w]) * share;
+        }
     }
     /// Displacement or surface rotation of a freedom at which the forces were found last, m.
     double motion(std::size_t k, int freedom) const noexcept {
@@ -374,7 +390,7 @@ private:
     pair_frame<double, dim> wall_frame(contact_element const& c) const {
         double const r = s_.store.radius(c.i);
         body<double, dim> const particle{s_.store.position(c.i), shift(c.i), surface(c.i) / r, r, s_.store.mass(c.i)};
-        auto const& moved = wall_motion_[std::size_t(c.wall)];
+        auto const& moved = wall_now_[std::size_t(c.wall)];
         return s_.walls.frame(std::size_t(c.wall), particle, moved, moved, 1.0);
     }
     pair_rotation<double, dim> rotation_of(bond_element const& b, pair_frame<double, dim> const& frame) const {
@@ -423,6 +439,8 @@ private:
             s_.own_forces.add_stiffness(s_.store, time_, stiff, viscous);
     }
     void add_loads(vector& to) {
+        for (std::size_t w = 0; w < s_.walls.size(); ++w)
+            if (int const n = numbers_.of_wall(w); n >= 0) to[n] += s_.wall_motions.servo_force(s_.walls, w);
         for (std::size_t k = 0; k < s_.store.size(); ++k)
             for (int f = 0; f < per_particle; ++f)
                 if (int const n = numbers_.of(k, f); n >= 0) {
@@ -483,8 +501,7 @@ private:
     }
 
     void add_contact(contact_element& c, vector& forces) {
-        c.frame = c.at_wall() ? wall_frame(c) : pair_frame_of(c.i, c.j);
-        c.b = matrices::relative_displacement(c.frame);
+        update_frame(c);
         typename frictional_contact<dim>::shear before{}, normal{};
         if constexpr (requires { c.state.shear_force; })
             before = detail::turned<ContactLaw, dim>(c.state, c.frame).shear_force;
@@ -504,28 +521,34 @@ private:
                 k += matrices::force(c.frame, 0, c.point.soften(matrices::slip(c.frame, along))) * along.transpose();
             }
         }
-        if (c.at_wall()) {
-            auto const half = c.b.template leftCols<per_particle>();
-            matrix_.add(c.element, (half.transpose() * k * half).eval());
-        } else {
-            matrix_.add(c.element, (c.b.transpose() * k * c.b).eval());
-        }
+        matrix_.add(c.element, (c.b.transpose() * k * c.b).eval());
+    }
+    /// Frame of a contact at the present increment, and its relative displacement per freedom. In place of a second
+    /// particle a wall has one freedom, along its normal.
+    void update_frame(contact_element& c) {
+        c.frame = c.at_wall() ? wall_frame(c) : pair_frame_of(c.i, c.j);
+        c.b = matrices::relative_displacement(c.frame);
+        if (!c.at_wall()) return;
+        c.b.template rightCols<per_particle>().setZero();
+        c.b.col(per_particle) = matrices::to_eigen(s_.walls.normal(std::size_t(c.wall)));
+    }
+    /// Number of the unknown of one of a contact's freedoms; -1: none.
+    int number_of(contact_element const& c, int freedom) const noexcept {
+        if (freedom < per_particle) return numbers_.of(c.i, freedom);
+        if (!c.at_wall()) return numbers_.of(c.j, freedom - per_particle);
+        return freedom == per_particle ? numbers_.of_wall(std::size_t(c.wall)) : -1;
     }
     /// Adds `sign` times the forces on the unknowns for a force on i.
     void scatter(contact_element const& c, typename matrices::point const& force, double sign, vector& to) const {
         Eigen::Matrix<double, matrices::freedoms, 1> const all = -sign * (c.b.transpose() * force);
-        if (!c.at_wall()) return scatter_pair(c.i, c.j, all, to);
-        for (int f = 0; f < per_particle; ++f)
-            if (int const n = numbers_.of(c.i, f); n >= 0) to[n] += all[f];
+        for (int f = 0; f < matrices::freedoms; ++f)
+            if (int const n = number_of(c, f); n >= 0) to[n] += all[f];
     }
     /// Relative displacement at a contact for a change of the unknowns.
     typename matrices::point relative(contact_element const& c, vector const& du) const {
         Eigen::Matrix<double, matrices::freedoms, 1> local = Eigen::Matrix<double, matrices::freedoms, 1>::Zero();
-        for (int f = 0; f < per_particle; ++f) {
-            if (int const n = numbers_.of(c.i, f); n >= 0) local[f] = du[n];
-            if (!c.at_wall())
-                if (int const n = numbers_.of(c.j, f); n >= 0) local[per_particle + f] = du[n];
-        }
+        for (int f = 0; f < matrices::freedoms; ++f)
+            if (int const n = number_of(c, f); n >= 0) local[f] = du[n];
         return c.b * local;
     }
     double normal_part(contact_element const& c, vector const& x) const {
@@ -574,7 +597,7 @@ private:
     bool drained_ = false;
     std::vector<double> given_, motion_; // of all freedoms, m
     std::vector<double> carried_;        // sum of the sizes of the forces on each particle, N
-    std::vector<point> wall_motion_, start_;
+    std::vector<point> wall_motion_, wall_now_, start_;
     std::vector<bond_element> bonds_;
     std::vector<contact_element> contacts_;
     std::vector<pore_element> pores_;

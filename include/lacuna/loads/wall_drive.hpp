@@ -90,6 +90,11 @@ public:
     }
     /// Whether a servo moves a wall.
     bool has_servo(std::size_t w) const noexcept { return servo_[w].on != 0; }
+    /// Force that a servo holds, stress times area, N.
+    template <class Walls>
+    double servo_force(Walls const& walls, std::size_t w) const {
+        return servo_[w].law.stress * area(walls, w);
+    }
     /// Area on which a servo's stress acts, m^2.
     template <class Walls>
     double area(Walls const& walls, std::size_t w) const {
