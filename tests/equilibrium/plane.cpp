@@ -135,7 +135,8 @@ TEST_CASE("a row of discs under a load shortens by F / k per contact", "[equilib
     }
 }
 
-TEST_CASE("a bonded chain under tension is a rope, and with locked rotations a shear beam", "[equilibrium][reference]") {
+TEST_CASE("a bonded chain under tension is a rope, and with locked rotations a shear beam",
+          "[equilibrium][reference]") {
     auto p = springs<plane>(1, 1, 0, unit_density(2));
     lacuna::simulation<plane> rope(chain<2>(11), p);
     rope.fix(0);
