@@ -78,9 +78,10 @@ public:
     }
     /// Displaces a wall in the next solve(). A wall that a servo moves goes where the stress on it is the servo's.
     /// \param displacement m
-    /// \throws std::invalid_argument for a wall that a servo moves
+    /// \throws std::invalid_argument for a wall that does not exist, and for one that a servo moves
     void move_wall(std::size_t w, point const& displacement) {
-        require_in("wall", double(w), 0, double(s_.walls.size()) - 1);
+        if (w >= s_.walls.size())
+            refuse("wall", double(w), "below the number of walls, " + std::to_string(s_.walls.size()));
         for (int axis = 0; axis < dim; ++axis)
             require_finite("displacement of wall " + std::to_string(w), displacement[axis]);
         if (s_.wall_motions.has_servo(w))

@@ -76,6 +76,26 @@ struct softening_contact : lacuna::law_defaults<softening_contact> {
         return p.stiffness;
     }
 };
+/// A contact that pulls up to an overlap of 1e-3 m.
+struct adhesive_contact : softening_contact {
+    template <class T, int Dim>
+    static lacuna::force_response<T, Dim, history<T, Dim>>
+    evaluate(parameters<T> const& p, lacuna::pair_motion<T, Dim> const& m, history<T, Dim> const& h) {
+        using lacuna::max;
+        T overlap = max(h.touching_distance - m.distance, T(0));
+        T pull = lacuna::select(overlap > T(0), T(1e-3), T(0));
+        return {-(p.stiffness * (overlap - pull)), {}, h};
+    }
+};
+/// A contact that pushes across a gap of up to 0.1 m.
+struct distant_contact : softening_contact {
+    template <class T, int Dim>
+    static lacuna::force_response<T, Dim, history<T, Dim>>
+    evaluate(parameters<T> const& p, lacuna::pair_motion<T, Dim> const& m, history<T, Dim> const& h) {
+        using lacuna::max;
+        return {-(p.stiffness * max(h.touching_distance + T(0.1) - m.distance, T(0))), {}, h};
+    }
+};
 struct softening : plane {
     using contact_law = softening_contact;
 };
@@ -352,7 +372,7 @@ TEST_CASE("what no equilibrium knows is refused with its name", "[equilibrium]")
     REQUIRE(thrown_by([&] { eq.move(0, {1, 0}); }) ==
             "displacement of particle 0 = 1: must be 0 along an axis along which it is not fixed");
     REQUIRE(thrown_by([&] { eq.turn(1, {1}); }) == "rotation of particle 1 = 1: must be 0 where rotation is not fixed");
-    REQUIRE(thrown_by([&] { eq.move_wall(0, {1, 0}); }).find("wall = 0: must be") == 0);
+    REQUIRE(thrown_by([&] { eq.move_wall(0, {1, 0}); }) == "wall = 0: must be below the number of walls, 0");
     REQUIRE(thrown_by([&] { lacuna::equilibrium<plane>(sim, {.tolerance = 0}); }) ==
             "equilibrium.tolerance = 0: must be > 0 and <= 0.1");
 
@@ -365,6 +385,12 @@ TEST_CASE("what no equilibrium knows is refused with its name", "[equilibrium]")
     REQUIRE(why.find("contact law = a force of") == 0);
     REQUIRE(why.find("must be a force that grows with the overlap") != std::string::npos);
     REQUIRE(soft.velocity(1)[0] == 0.1); // a refusal changes nothing
+
+    std::string const rule = "must be a force that pushes and begins with the overlap, for an equilibrium";
+    auto const pulls = thrown_by([] { lacuna::contact_formula<adhesive_contact, 2>({1e6}, {1.0}, 0.5, 0.5); });
+    REQUIRE(pulls.find(rule) != std::string::npos);
+    auto const reaches = thrown_by([] { lacuna::contact_formula<distant_contact, 2>({1e6}, {1.0}, 0.5, 0.5); });
+    REQUIRE(reaches.find(rule) != std::string::npos);
 
     auto with_servo = box(0.1, 1, 8);
     with_servo.servo_wall(3, {.stress = 1e3, .area = 8, .max_speed = 1});

@@ -29,12 +29,13 @@ public:
 
     contact_formula() = default;
     /// \param radius_j 0 for a wall
-    /// \throws std::invalid_argument for a law whose force does not grow with the overlap
+    /// \throws std::invalid_argument for a law whose force pulls, or does not grow with the overlap
     contact_formula(parameters const& p, history const& h, double radius_i, double radius_j)
         : parameters_(p), history_(h), radius_i_(radius_i), radius_j_(radius_j) {
         if constexpr (requires { history_.shear_force; }) history_.shear_force = {};
         double const radius = radius_j > 0 ? std::min(radius_i, radius_j) : radius_i;
         touching_ = touching_distance_of(motion<double>(0.0), h);
+        require_no_pull(-1e-3 * radius);
         touching_ -= dent(radius);
         shallow_ = 1e-9 * radius;
         require_growth(radius);
@@ -84,6 +85,7 @@ private:
     double dent(double radius) const {
         double none = 0, some = 1e-9 * radius;
         while (!(force(some) > 0)) {
+            require_no_pull(some);
             none = some;
             some *= 2;
             if (some > radius)
@@ -97,7 +99,13 @@ private:
         }
         return none;
     }
-    /// \throws std::invalid_argument naming the overlaps between which the force falls, and for a force that pulls
+    /// \throws std::invalid_argument for a force that pulls, or that acts across a gap
+    void require_no_pull(double overlap) const {
+        if (double const now = force(overlap); now < 0 || (now > 0 && overlap < 0))
+            refuse("contact law", "a force of " + to_text(now) + " N at an overlap of " + to_text(overlap) + " m",
+                   "a force that pushes and begins with the overlap, for an equilibrium");
+    }
+    /// \throws std::invalid_argument naming the overlaps between which the force falls
     void require_growth(double radius) const {
         double shallower = 0, before = 0;
         for (double const share : {1e-6, 1e-5, 1e-4, 1e-3, 3e-3, 0.01, 0.03, 0.1}) {
