@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <lacuna/core/error.hpp>
+#include <lacuna/equilibrium/energy.hpp>
 
 namespace lacuna {
 
@@ -13,6 +14,12 @@ namespace lacuna {
 enum class pore_condition {
     sealed, ///< no fluid leaves a pore: its pressure follows its volume
     drained ///< pressures stay as they are: fluid flows in and out until then
+};
+
+/// Which bonds fail at once where a load is too high.
+enum class failure_choice {
+    first,          ///< the bond that fails first
+    worst_of_groups ///< it, and in each other group of bonds that one that fails first
 };
 
 /// Parameters of an equilibrium.
@@ -29,6 +36,7 @@ struct equilibrium_parameters {
     int iterations = 200; ///< largest number of iterations of one solve; >= 1
     int solves = 200;     ///< largest number of solves at one load; >= 1
     pore_condition pores = pore_condition::sealed;
+    failure_choice failures = failure_choice::first;
 
     /// \throws std::invalid_argument naming field, value and rule
     void validate(std::string const& name) const {
@@ -73,6 +81,7 @@ struct equilibrium_result {
     int solves = 0;
     int factorisations = 0;
     std::size_t broken = 0; ///< bonds that failed
+    equilibrium_energy energy; ///< since the call, J
 
     bool reached() const noexcept { return outcome == equilibrium_outcome::reached; }
 };

@@ -27,6 +27,24 @@
 
 namespace lacuna {
 
+/// Forces of the exact laws on all freedoms, held ones too: per_particle numbers per particle, N.
+template <int Dim>
+struct exact_force_record {
+    Eigen::VectorXd inner;                 ///< of bonds, contacts, walls and pressures
+    Eigen::VectorXd load;                  ///< of loads, weight and the model's own forces
+    std::vector<vec<double, Dim>> on_wall; ///< of the particles on each wall
+
+    void clear(std::size_t freedoms, std::size_t walls) {
+        inner.setZero(Eigen::Index(freedoms));
+        load.setZero(Eigen::Index(freedoms));
+        on_wall.assign(walls, {});
+    }
+    double sum(std::size_t k, int freedom) const {
+        auto const at = Eigen::Index(k) * unknowns<Dim>::per_particle + freedom;
+        return inner[at] + load[at];
+    }
+};
+
 LACUNA_BEGIN_PACKS
 /// The equations of equilibrium of a model: forces on all unknowns for an increment from the committed state, and their
 /// stiffness. The unknowns are those of lacuna::unknowns; contacts have further ones, which Newton's step eliminates.
@@ -45,23 +63,16 @@ public:
 
     explicit equilibrium_system(state_type& state) : s_(state) {}
 
-    /// Reads the committed state: its unknowns, pairs, pores and histories.
-    /// \param given displacement of every freedom that is held: per_particle numbers per particle, m; may be empty
-    /// \param wall_motion displacement of every wall, m
+    /// Reads the committed state: its unknowns, pairs, pores and histories. Nothing that is held moves until give().
     /// \param drained pressures stay
     /// \param time at which the model's own forces act, s
-    void begin(std::span<double const> given, std::span<point const> wall_motion, bool drained, double time) {
+    void begin(bool drained, double time) {
         time_ = time;
         std::vector<char> free_walls;
         for (std::size_t w = 0; w < s_.walls.size(); ++w) free_walls.push_back(s_.wall_motions.has_servo(w));
         numbers_ = unknowns<dim>(s_.store, s_.plates, free_walls);
         drained_ = drained;
-        given_.assign(given.begin(), given.end());
-        given_.resize(s_.store.size() * std::size_t(per_particle), 0.0);
-        motion_.assign(given_.size(), 0.0);
-        wall_motion_.assign(wall_motion.begin(), wall_motion.end());
-        wall_motion_.resize(s_.walls.size(), point{});
-        wall_now_ = wall_motion_;
+        give({}, {});
         start_.resize(s_.store.size());
         for (std::size_t k = 0; k < s_.store.size(); ++k) start_[k] = s_.store.position(k);
         matrix_.begin(numbers_.count());
@@ -75,7 +86,20 @@ public:
         matrix_.finish();
     }
 
+    /// Sets the displacements of what is held.
+    /// \param given displacement of every freedom that is held: per_particle numbers per particle, m; may be empty
+    /// \param wall_motion displacement of every wall, m; may be empty
+    void give(std::span<double const> given, std::span<point const> wall_motion) {
+        given_.assign(given.begin(), given.end());
+        given_.resize(s_.store.size() * std::size_t(per_particle), 0.0);
+        motion_.assign(given_.size(), 0.0);
+        wall_motion_.assign(wall_motion.begin(), wall_motion.end());
+        wall_motion_.resize(s_.walls.size(), point{});
+        wall_now_ = wall_motion_;
+    }
+
     int count() const noexcept { return numbers_.count(); }
+    unknowns<dim> const& numbers() const noexcept { return numbers_; }
     std::size_t contacts() const noexcept { return contacts_.size(); }
     stiffness_matrix& matrix() noexcept { return matrix_; }
 
@@ -133,13 +157,18 @@ public:
         matrix_.set_zero();
         forces.setZero(count());
         largest_ = 0;
-        add_loads(forces);
-        add_own_forces(forces);
+        auto const to_unknown = [&](std::size_t k, int f, double force) {
+            if (int const n = numbers_.of(k, f); n >= 0) forces[n] += force;
+        };
+        add_loads(to_unknown);
+        for (std::size_t w = 0; w < s_.walls.size(); ++w)
+            if (int const n = numbers_.of_wall(w); n >= 0) forces[n] += s_.wall_motions.servo_force(s_.walls, w);
+        add_own_forces(to_unknown);
         add_own_stiffness();
         for (auto& b : bonds_) add_bond(b, forces);
         for (auto& c : contacts_) add_contact(c, forces);
         if constexpr (has_fluid<Model>)
-            for (auto& p : pores_) add_pore(p, forces);
+            for (auto& p : pores_) add_pore(p, to_unknown);
     }
     /// Shortens the displacements of particles that carry no force, which are loose in their cages: nothing but the
     /// barrier moved them.
@@ -192,18 +221,18 @@ public:
         for (auto& c : contacts_) c.point.advance(c.formula, share);
     }
 
-    /// Forces of the exact laws on the unknowns, without barrier, N, at an increment.
-    void exact_forces(vector const& u, vector& forces) {
-        place(u);
+    /// Finds the forces of the exact laws, without barrier, at a share of an increment. See forces_now().
+    void exact_forces(vector const& u, double share = 1) {
+        place(u, share);
         carried_.assign(start_.size(), 0.0);
-        forces.setZero(count());
         largest_ = 0;
-        add_loads(forces);
-        add_own_forces(forces);
+        now_.clear(start_.size() * std::size_t(per_particle), s_.walls.size());
+        add_loads([&](std::size_t k, int f, double force) { now_.load[int(k) * per_particle + f] += force; });
+        add_own_forces([&](std::size_t k, int f, double force) { now_.load[int(k) * per_particle + f] += force; });
         for (auto const& b : bonds_) {
             auto const f = evaluate(b);
             note(f.force.norm());
-            scatter_bond(b, f, forces);
+            add_to_pair(b.i, b.j, forces_of(b, f));
         }
         for (auto& c : contacts_) {
             update_frame(c);
@@ -211,28 +240,64 @@ public:
                 ContactLaw::evaluate(*c.row, c.frame.motion, detail::turned<ContactLaw, dim>(c.state, c.frame));
             typename matrices::point const f = matrices::force(c.frame, answer.normal_force, answer.shear_force);
             note(f.norm());
-            scatter(c, f, 1.0, forces);
+            Eigen::Matrix<double, matrices::freedoms, 1> const all = -(c.b.transpose() * f);
+            add_to_pair(c.i, c.j, all, c.at_wall());
+            if (c.at_wall()) now_.on_wall[std::size_t(c.wall)] -= matrices::to_vec(f);
         }
         if constexpr (has_fluid<Model>)
-            for (auto& p : pores_) scatter_pore(p, measure(p), forces);
+            for (auto& p : pores_)
+                scatter_pore(p, measure(p), [&](std::size_t k, int axis, double force) {
+                    now_.inner[int(k) * per_particle + axis] += force;
+                });
     }
-    /// Smallest share of an increment, up to `most`, at which a bond fails; `most` if none does.
-    double first_failure(vector const& u, double most) {
+    /// The forces that exact_forces() found last.
+    exact_force_record<dim> const& forces_now() const noexcept { return now_; }
+    /// Their sum on each unknown, N.
+    vector unbalanced() const {
+        vector sum = vector::Zero(count());
+        for (std::size_t k = 0; k < start_.size(); ++k)
+            for (int f = 0; f < per_particle; ++f)
+                if (int const n = numbers_.of(k, f); n >= 0) sum[n] += now_.sum(k, f);
+        for (std::size_t w = 0; w < s_.walls.size(); ++w)
+            if (int const n = numbers_.of_wall(w); n >= 0)
+                sum[n] += s_.wall_motions.servo_force(s_.walls, w) + dot(s_.walls.normal(w), now_.on_wall[w]);
+        return sum;
+    }
+
+    /// A bond that fails within an increment.
+    struct failure {
+        double share;       ///< share of the increment at which it fails
+        std::int32_t label; ///< number of the bond in the input
+    };
+    /// The bonds that fail within a share of an increment, the first one first.
+    /// \param only_first whether the others matter
+    std::vector<failure> failures(vector const& u, double most, bool only_first) {
         place(u, most);
         std::vector<bond_element const*> failing;
         for (auto const& b : bonds_)
             if (evaluate(b).broken) failing.push_back(&b);
-        if (failing.empty()) return most;
-        double low = 0, high = most;
-        for (int n = 0; n < 40; ++n) {
-            double const middle = 0.5 * (low + high);
-            place(u, middle);
-            bool const fails =
-                std::any_of(failing.begin(), failing.end(), [&](auto const* b) { return evaluate(*b).broken; });
-            (fails ? high : low) = middle;
+        std::vector<failure> found;
+        while (!failing.empty()) {
+            double low = 0, high = most;
+            auto const fails = [&](auto const* b) { return evaluate(*b).broken; };
+            auto first = failing.begin();
+            for (int n = 0; n < 40; ++n) {
+                double const middle = 0.5 * (low + high);
+                place(u, middle);
+                auto const one = std::find_if(failing.begin(), failing.end(), fails);
+                if (one == failing.end()) {
+                    low = middle;
+                } else {
+                    high = middle;
+                    first = one;
+                }
+            }
+            // A little further, so that rounding in another order does not save the bond.
+            found.push_back({std::min(most, high * (1 + 1e-9)), (*first)->label});
+            if (only_first) break;
+            failing.erase(first);
         }
-        // A little further, so that rounding in another order does not save the bond.
-        return std::min(most, high * (1 + 1e-9));
+        return found;
     }
     /// Moves the simulation's particles to a share of an increment, as one step of one second would.
     void displace(vector const& u, double share) {
@@ -250,6 +315,8 @@ public:
     double largest_motion(vector const& u) const {
         return std::max(u.size() > 0 ? u.lpNorm<Eigen::Infinity>() : 0.0, largest_given());
     }
+    /// Displacements and surface rotations at which the forces were found last, of all freedoms, m.
+    std::vector<double> const& motion() const noexcept { return motion_; }
     /// Displacements of the walls at the increment at which the forces were found last, m.
     std::vector<point> const& wall_motion() const noexcept { return wall_now_; }
 
@@ -402,22 +469,19 @@ private:
         if constexpr (dim == 2) return s_.store.load(k)[2];
         return s_.store.torques().size() > 0 ? s_.store.torques().at(k, freedom - dim) : 0.0;
     }
-    /// Adds the model's own forces at the present positions.
-    void add_own_forces(vector& to) {
+    /// Adds the model's own forces at the present positions: to(particle, freedom, force).
+    template <class To>
+    void add_own_forces(To const& to) {
         if (!own_force_term::active(s_)) return;
         auto& forces = s_.other_forces;
         std::fill(forces.data(), forces.data() + 4 * forces.size(), 0.0);
         force_step<double> step{moment{0, time_}, 0, false};
         own_force_term::add_forces<false>(s_, step);
         for (std::size_t k = 0; k < s_.store.size(); ++k)
-            for (int f = 0; f < per_particle; ++f)
-                if (int const n = numbers_.of(k, f); n >= 0) {
-                    std::size_t const record = dim == 2 ? k : f < dim ? 2 * k : 2 * k + 1;
-                    double const force = forces.at(record, dim == 3 && f >= dim ? f - dim : f);
-                    note(std::fabs(force));
-                    carried_[k] += std::fabs(force);
-                    to[n] += force;
-                }
+            for (int f = 0; f < per_particle; ++f) {
+                std::size_t const record = dim == 2 ? k : f < dim ? 2 * k : 2 * k + 1;
+                add_load(k, f, forces.at(record, dim == 3 && f >= dim ? f - dim : f), to);
+            }
     }
     /// Takes the stiffness of the model's own forces as bounds of the time step do: only the part that is symmetric and
     /// has no negative direction.
@@ -438,17 +502,18 @@ private:
         if constexpr (requires { s_.own_forces.add_stiffness(s_.store, time_, stiff, viscous); })
             s_.own_forces.add_stiffness(s_.store, time_, stiff, viscous);
     }
-    void add_loads(vector& to) {
-        for (std::size_t w = 0; w < s_.walls.size(); ++w)
-            if (int const n = numbers_.of_wall(w); n >= 0) to[n] += s_.wall_motions.servo_force(s_.walls, w);
+    template <class To>
+    void add_loads(To const& to) {
         for (std::size_t k = 0; k < s_.store.size(); ++k)
-            for (int f = 0; f < per_particle; ++f)
-                if (int const n = numbers_.of(k, f); n >= 0) {
-                    double const force = load(k, f);
-                    note(std::fabs(force));
-                    carried_[k] += std::fabs(force);
-                    to[n] += force;
-                }
+            for (int f = 0; f < per_particle; ++f) add_load(k, f, load(k, f), to);
+    }
+    template <class To>
+    void add_load(std::size_t k, int f, double force, To const& to) {
+        if (numbers_.of(k, f) >= 0) {
+            note(std::fabs(force));
+            carried_[k] += std::fabs(force);
+        }
+        to(k, f, force);
     }
     void note(double force) noexcept { largest_ = std::max(largest_, force); }
 
@@ -466,7 +531,7 @@ private:
         note(f.force.norm());
         carried_[b.i] += f.force.norm();
         carried_[b.j] += f.force.norm();
-        scatter_bond(b, f, forces);
+        scatter_pair(b.i, b.j, forces_of(b, f), forces);
         using forces_type = bond_forces<BondLaw, dim>;
         Eigen::Matrix<double, forces_type::strains, matrices::freedoms> op;
         op.template topRows<dim>() = matrices::relative_displacement(frame);
@@ -484,13 +549,22 @@ private:
         }
         matrix_.add(b.element, stiffness);
     }
-    void scatter_bond(bond_element const& b, bond_forces<BondLaw, dim> const& f, vector& to) const {
+    /// Forces of a bond on the freedoms of its particles, N.
+    Eigen::Matrix<double, matrices::freedoms, 1> forces_of(bond_element const& b,
+                                                           bond_forces<BondLaw, dim> const& f) const {
         auto const frame = pair_frame_of(b.i, b.j);
         Eigen::Matrix<double, matrices::freedoms, 1> all =
             -(matrices::relative_displacement(frame).transpose() * f.force);
         if constexpr (bond_forces<BondLaw, dim>::bends)
             all -= matrices::relative_rotation(s_.store.radius(b.i), s_.store.radius(b.j)).transpose() * f.moment;
-        scatter_pair(b.i, b.j, all, to);
+        return all;
+    }
+    template <class All>
+    void add_to_pair(std::size_t i, std::size_t j, All const& all, bool only_first = false) {
+        for (int f = 0; f < per_particle; ++f) {
+            now_.inner[int(i) * per_particle + f] += all[f];
+            if (!only_first) now_.inner[int(j) * per_particle + f] += all[per_particle + f];
+        }
     }
     template <class All>
     void scatter_pair(std::size_t i, std::size_t j, All const& all, vector& to) const {
@@ -570,20 +644,21 @@ private:
         }
         return state;
     }
-    void scatter_pore(pore_element const& p, pore_state const& state, vector& to) {
+    template <class To>
+    void scatter_pore(pore_element const& p, pore_state const& state, To const& to) {
         auto const& net = s_.fluid.get()->network();
         for (std::size_t c = 0; c < corners; ++c) {
             double const force = norm(state.traction[c]) * std::fabs(state.pressure);
             note(force);
-            carried_[std::size_t(net.corner[c][p.pore])] += force;
-            for (int axis = 0; axis < dim; ++axis)
-                if (int const n = numbers_.of(std::size_t(net.corner[c][p.pore]), axis); n >= 0)
-                    to[n] += state.traction[c][axis] * state.pressure;
+            auto const k = std::size_t(net.corner[c][p.pore]);
+            carried_[k] += force;
+            for (int axis = 0; axis < dim; ++axis) to(k, axis, state.traction[c][axis] * state.pressure);
         }
     }
-    void add_pore(pore_element const& p, vector& forces) {
+    template <class To>
+    void add_pore(pore_element const& p, To const& to) {
         auto const state = measure(p);
-        scatter_pore(p, state, forces);
+        scatter_pore(p, state, to);
         if (!(state.stiffness > 0)) return;
         Eigen::Matrix<double, int(corners) * dim, 1> g;
         for (std::size_t c = 0; c < corners; ++c)
@@ -596,6 +671,7 @@ private:
     stiffness_matrix matrix_;
     bool drained_ = false;
     std::vector<double> given_, motion_; // of all freedoms, m
+    exact_force_record<dim> now_;
     std::vector<double> carried_;        // sum of the sizes of the forces on each particle, N
     std::vector<point> wall_motion_, wall_now_, start_;
     std::vector<bond_element> bonds_;

@@ -28,11 +28,13 @@ struct bond_failure {
 /// \param row row of the contact's parameters
 /// \param time_step of the step just evaluated, s
 /// \param force force record of the pair; overwritten with the force of the contact if the bond fails
+/// \param anyway true: the bond fails whatever its strength, in tension if it pulls, else in shear
 /// \return the failure; none if the bond holds
 template <class BondLaw, class ContactLaw, class Real, int Dim, class BondEntry, class BondParameters,
           class ContactParameters>
 auto fail_bond(particle_store<Real, Dim> const& store, BondEntry const& bond, BondParameters const& bond_parameters,
-               ContactParameters const& contact_parameters, std::int32_t row, Real time_step, Real* force)
+               ContactParameters const& contact_parameters, std::int32_t row, Real time_step, Real* force,
+               bool anyway = false)
     -> std::optional<bond_failure<typename pair_table<ContactLaw, Real, Dim>::entry, Dim>> {
     auto const i = load_particle(store, std::size_t(bond.i));
     auto j = load_particle(store, std::size_t(bond.j));
@@ -48,11 +50,12 @@ auto fail_bond(particle_store<Real, Dim> const& store, BondEntry const& bond, Bo
         else
             return BondLaw::evaluate(bond_parameters, frame.motion, bond.state);
     }();
-    if (!answer.broken) return {};
+    if (!answer.broken && !anyway) return {};
+    bool const in_tension = answer.broken ? bool(answer.broken_in_tension) : answer.normal_force > Real(0);
 
     Real const touching = frame.motion.touching_distance();
     auto state = ContactLaw::template initial<Real, Dim>(std::min(frame.motion.distance, touching), touching);
-    if (!answer.broken_in_tension)
+    if (!in_tension)
         state = ContactLaw::hand_over(contact_parameters, frame.motion, answer.normal_force, answer.shear_force);
     auto const contact = ContactLaw::evaluate(contact_parameters, frame.motion, state);
     store_pair_force<Real, Dim>(force, frame.force(contact.normal_force, contact.shear_force),
@@ -62,7 +65,7 @@ auto fail_bond(particle_store<Real, Dim> const& store, BondEntry const& bond, Bo
     auto& event = failure.event;
     event.bond = bond.label;
     event.particles = {store.id(std::size_t(bond.i)), store.id(std::size_t(bond.j))};
-    event.mode = answer.broken_in_tension ? bond_state::broken_in_tension : bond_state::broken_in_shear;
+    event.mode = in_tension ? bond_state::broken_in_tension : bond_state::broken_in_shear;
     for (int axis = 0; axis < Dim; ++axis)
         event.position[axis] = double(i.position[axis] + frame.normal[axis] * (frame.lever * i.radius));
     event.normal_force = double(answer.normal_force);

@@ -152,6 +152,15 @@ public:
         if constexpr (carries_moment<ContactLaw>) lacuna::add_moments(store, contacts_, contact_moments_, out);
     }
 
+    /// Makes an intact bond fail at the forces of the step just evaluated, whatever its strength: in tension if it
+    /// pulls, else in shear. collect_events() gives the failure.
+    /// \param bond its number in the input
+    void break_bond(store_type const& store, std::int32_t bond, Real time_step) {
+        auto const slot = std::size_t(bond_records_[std::size_t(bond)].slot);
+        int chunk = 0;
+        while (slot >= bonds_.first_slot(chunk) + bonds_.chunk_size(chunk)) ++chunk;
+        break_bond(store, chunk, slot, time_step, true);
+    }
     /// Failures of the step just evaluated, in the order of the pairs. The caller adds the step's number and time.
     std::span<break_event<Dim> const> collect_events() {
         events_.clear();
@@ -173,6 +182,12 @@ public:
     /// integrator, J.
     std::array<double, 2> const& fracture_energy() const noexcept { return fracture_energy_; }
 
+    /// Elastic energy that the pairs lost when bonds failed in the last evaluation, at constant positions, J.
+    double energy_of_failures() const noexcept {
+        double lost = 0;
+        for (auto const& chunk : chunk_results_) lost -= chunk.energy[2].stored;
+        return lost;
+    }
     /// Energies of the last evaluation with WithEnergy, summed over the chunks in their order.
     pair_energy energy() const noexcept {
         pair_energy total;
@@ -374,21 +389,21 @@ private:
         }
     }
     [[gnu::noinline]] void break_bonds(store_type const& store, int chunk, std::size_t pack, Real time_step) {
-        for (std::size_t s = pack * bond_table::width; s < (pack + 1) * bond_table::width; ++s) {
-            if (bonds_.is_padding(s, store.size())) continue;
-            bond_entry const bond = bonds_.get(s);
-            std::int32_t const row = parameter_row(store, bond.i, bond.j);
-            auto const failed = fail_bond<BondLaw, ContactLaw>(
-                store, bond, bond_parameters_.row[std::size_t(bond.parameter)],
-                contact_parameters_.row[std::size_t(row)], row, time_step,
-                forces_.template of<pair_kind::bond>(chunk, s));
-            if (!failed) continue;
-            if constexpr (carries_moment<BondLaw>)
-                std::fill_n(moments_.begin() + std::ptrdiff_t(s * rotation_dim<Dim>), rotation_dim<Dim>, Real(0));
-            auto& results = chunk_results_[std::size_t(chunk)];
-            results.energy[2] += {failed->stored, 0, 0, -failed->event.energy};
-            results.failures.push_back(*failed);
-        }
+        for (std::size_t s = pack * bond_table::width; s < (pack + 1) * bond_table::width; ++s)
+            if (!bonds_.is_padding(s, store.size())) break_bond(store, chunk, s, time_step, false);
+    }
+    void break_bond(store_type const& store, int chunk, std::size_t slot, Real time_step, bool anyway) {
+        bond_entry const bond = bonds_.get(slot);
+        std::int32_t const row = parameter_row(store, bond.i, bond.j);
+        auto const failed = fail_bond<BondLaw, ContactLaw>(
+            store, bond, bond_parameters_.row[std::size_t(bond.parameter)], contact_parameters_.row[std::size_t(row)],
+            row, time_step, forces_.template of<pair_kind::bond>(chunk, slot), anyway);
+        if (!failed) return;
+        if constexpr (carries_moment<BondLaw>)
+            std::fill_n(moments_.begin() + std::ptrdiff_t(slot * rotation_dim<Dim>), rotation_dim<Dim>, Real(0));
+        auto& results = chunk_results_[std::size_t(chunk)];
+        results.energy[2] += {failed->stored, 0, 0, -failed->event.energy};
+        results.failures.push_back(*failed);
     }
 
     interaction_parameters parameters_;
