@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <cstddef>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include <lacuna/core/eigen_sparse.hpp>
+#include <lacuna/equilibrium/multifrontal_factor.hpp>
 
 namespace lacuna {
 
@@ -17,13 +19,15 @@ namespace lacuna {
 class stiffness_matrix {
 public:
     using vector = Eigen::VectorXd;
+    using place = multifrontal_factor::place;
 
     /// Begins a new list of elements.
-    /// \param unknowns number of rows
-    void begin(int unknowns) {
+    /// \param places of the unknowns, m, by which the order of elimination is found; neighbours at the same place are
+    ///        eliminated together; without a finite one: of an unknown that acts in many places
+    void begin(std::vector<place> places) {
         wanted_.clear();
         wanted_end_.clear();
-        wanted_rows_ = unknowns;
+        places_ = std::move(places);
     }
     /// Adds an element.
     /// \param numbers of its unknowns; -1: held
@@ -35,12 +39,13 @@ public:
     }
     /// Ends the list. Finds the pattern and the addresses, unless the elements are the same as before.
     void finish() {
-        if (wanted_rows_ == matrix_.rows() && wanted_ == numbers_ && wanted_end_ == end_) return;
+        if (int(places_.size()) == rows() && wanted_ == numbers_ && wanted_end_ == end_) return;
         numbers_ = wanted_;
         end_ = wanted_end_;
-        analysed_ = false;
-        find_pattern(wanted_rows_);
+        sparse const before = std::exchange(matrix_, sparse());
+        find_pattern(int(places_.size()));
         find_addresses();
+        analysed_ = analysed_ && same_pattern(before, matrix_);
     }
 
     void set_zero() { std::fill(matrix_.valuePtr(), matrix_.valuePtr() + matrix_.nonZeros(), 0.0); }
@@ -58,20 +63,27 @@ public:
 
     /// \return whether the factorisation exists
     bool factorise() {
-        if (!analysed_) factor_.analyzePattern(matrix_);
+        if (!analysed_) factor_.analyse(matrix_, places_);
         analysed_ = true;
-        factor_.factorize(matrix_);
         ++factorisations_;
-        return factor_.info() == Eigen::Success;
+        return factor_.factorise(matrix_);
     }
     vector solve(vector const& right) const { return factor_.solve(right); }
     vector product(vector const& x) const { return matrix_.selfadjointView<Eigen::Lower>() * x; }
     int rows() const noexcept { return int(matrix_.rows()); }
     int factorisations() const noexcept { return factorisations_; }
+    /// Numbers in the factors.
+    std::size_t fill() const noexcept { return factor_.fill(); }
 
 private:
-    using sparse = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
+    using sparse = multifrontal_factor::sparse;
 
+    static bool same_pattern(sparse const& a, sparse const& b) {
+        auto const equal = [](int const* x, int const* y, Eigen::Index count) { return std::equal(x, x + count, y); };
+        return a.cols() == b.cols() && a.nonZeros() == b.nonZeros() &&
+               equal(a.outerIndexPtr(), b.outerIndexPtr(), a.cols() + 1) &&
+               equal(a.innerIndexPtr(), b.innerIndexPtr(), a.nonZeros());
+    }
     /// Whether two different freedoms of an element are the same unknown: both entries of the element's matrix add up.
     bool same(std::size_t element, Eigen::Index a, Eigen::Index b) const noexcept {
         int const* at = numbers_.data() + begin_of(element);
@@ -129,11 +141,11 @@ private:
 
     std::vector<int> wanted_, numbers_;         // numbers of the elements' unknowns
     std::vector<std::size_t> wanted_end_, end_; // end of each element's numbers
-    int wanted_rows_ = 0;
+    std::vector<place> places_;
     std::vector<int> slot_, diagonal_;          // addresses of entries in the matrix; -1: held
     std::vector<std::size_t> first_slot_;
     sparse matrix_; // the lower triangle
-    Eigen::SimplicialLDLT<sparse, Eigen::Lower> factor_;
+    multifrontal_factor factor_;
     bool analysed_ = false;
     int factorisations_ = 0;
 };

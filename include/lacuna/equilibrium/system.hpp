@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -75,7 +76,7 @@ public:
         give({}, {});
         start_.resize(s_.store.size());
         for (std::size_t k = 0; k < s_.store.size(); ++k) start_[k] = s_.store.position(k);
-        matrix_.begin(numbers_.count());
+        matrix_.begin(find_places());
         list_bonds();
         list_contacts();
         list_pores();
@@ -350,6 +351,20 @@ private:
         double pressure, stiffness; // Pa, Pa/m^3
         std::array<point, corners> traction; // N per Pa
     };
+
+    /// Places of the unknowns; walls and plates have none.
+    std::vector<stiffness_matrix::place> find_places() const {
+        constexpr double nowhere = std::numeric_limits<double>::quiet_NaN();
+        std::vector<stiffness_matrix::place> places(std::size_t(count()), {nowhere, nowhere, nowhere});
+        for (std::size_t k = 0; k < start_.size(); ++k)
+            for (int f = 0; f < per_particle; ++f) {
+                int const n = numbers_.of(k, f);
+                if (n < 0 || numbers_.shared(n)) continue;
+                places[std::size_t(n)] = {};
+                for (int axis = 0; axis < dim; ++axis) places[std::size_t(n)][std::size_t(axis)] = start_[k][axis];
+            }
+        return places;
+    }
 
     void list_bonds() {
         bonds_.clear();

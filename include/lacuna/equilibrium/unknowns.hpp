@@ -38,6 +38,7 @@ public:
             }
         for (auto& index : index_)
             if (index == 0) index = count_++;
+        own_ = count_;
         for (std::size_t g = 0; g < plates.size(); ++g) {
             bool free = true;
             for (auto const k : plates.members(g)) free = free && of(k, plates.axis(g)) == in_plate;
@@ -48,6 +49,8 @@ public:
     }
 
     int count() const noexcept { return count_; }
+    /// Whether an unknown is not that of one particle, but of a plate or a wall.
+    bool shared(int unknown) const noexcept { return unknown >= own_; }
     /// Number of a freedom's unknown; -1: the freedom is held.
     int of(std::size_t particle, int freedom) const noexcept {
         return index_[particle * per_particle + std::size_t(freedom)];
@@ -61,7 +64,7 @@ public:
 
 private:
     std::vector<int> index_, wall_;
-    int count_ = 0;
+    int count_ = 0, own_ = 0;
 };
 
 } // namespace lacuna
