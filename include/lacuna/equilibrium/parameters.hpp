@@ -80,6 +80,7 @@ struct equilibrium_result {
     std::vector<regularisation_trial> trials;
     int solves = 0;
     int factorisations = 0;
+    std::size_t fill = 0;   ///< numbers in the factors of the last matrix
     std::size_t broken = 0; ///< bonds that failed
     equilibrium_energy energy; ///< since the call, J
 

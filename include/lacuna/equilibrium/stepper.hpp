@@ -143,6 +143,7 @@ public:
             regularisation = next_regularisation(regularisation, result.trials.back().displacement);
         }
         result.factorisations += system_.matrix().factorisations() - factorised;
+        result.fill = system_.matrix().fill();
         result.broken += events_.size() - broken;
         result.energy += account_.take();
         account_.note_loads();
