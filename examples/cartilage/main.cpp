@@ -13,6 +13,8 @@
 #include "cartilage/common/interruption.hpp"
 #include "cartilage/common/options.hpp"
 #include "cartilage/common/print_paths.hpp"
+#include "cartilage/equilibrium_command.hpp"
+#include "cartilage/run/equilibrium_options.hpp"
 #include "cartilage/run/run_options.hpp"
 #include "cartilage/run/run_output.hpp"
 #include "cartilage/run/simulate.hpp"
@@ -64,9 +66,17 @@ int run(cartilage::options const& o) {
 
 /// Commands that read their own options.
 constexpr cartilage::command_name further_commands[] = {
+    {"equilibrium", "Load a specimen from equilibrium to equilibrium and see at which loads it cracks"},
     {"study", "Find the loads of Table 3 for many packings; 'study merge' joins parts"},
     {"sensitivity", "Show the effect of each open choice on these loads"},
     {"calibrate", "Fit open choices to the paper's eleven loads"}};
+
+int equilibrium(int argc, char** argv) {
+    auto const o = cartilage::parse_equilibrium_command_line(argc, argv);
+    if (!o) return done;
+    lacuna::watch_stop_signals();
+    return cartilage::equilibrium(*o) ? done : interrupted();
+}
 
 int study(int argc, char** argv) {
     auto const o = cartilage::parse_study_command_line(argc, argv);
@@ -91,6 +101,7 @@ int calibrate(int argc, char** argv) {
 
 int run_command(int argc, char** argv) {
     std::string_view const command = argc > 1 ? argv[1] : "";
+    if (command == "equilibrium") return equilibrium(argc - 1, argv + 1);
     if (command == "study") return study(argc - 1, argv + 1);
     if (command == "sensitivity") return sensitivity(argc - 1, argv + 1);
     if (command == "calibrate") return calibrate(argc - 1, argv + 1);
@@ -117,6 +128,9 @@ int main(int argc, char** argv) {
                      lacuna::signal_name(lacuna::stop_signal()).c_str());
         return interrupted();
     } catch (lacuna::unstable_run const& bad) {
+        std::fprintf(stderr, "cartilage: %s\n", bad.what());
+        return unstable;
+    } catch (cartilage::no_convergence const& bad) {
         std::fprintf(stderr, "cartilage: %s\n", bad.what());
         return unstable;
     } catch (std::exception const& bad) {

@@ -10,7 +10,9 @@
 #include "cartilage/common/print_paths.hpp"
 #include "cartilage/common/unfinished_mark.hpp"
 #include "cartilage/common/write_whole.hpp"
+#include "cartilage/report/equilibrium_figures.hpp"
 #include "cartilage/report/study_report.hpp"
+#include "cartilage/study/equilibrium_study.hpp"
 #include "cartilage/study/study.hpp"
 #include "cartilage/study/study_json.hpp"
 
@@ -59,6 +61,39 @@ void write_study(study_options const& o, lacuna::run_directory& out, study_resul
     print_paths(out, {study_file});
 }
 
+/// Files of a study in equilibrium.
+std::vector<std::string> equilibrium_study_results() {
+    auto names = equilibrium_report_files();
+    names.push_back(equilibrium_study_file);
+    return names;
+}
+
+int study_in_equilibrium(study_options const& o) {
+    lacuna::run_directory out(o.out, "--out", equilibrium_study_results(),
+                              o.force ? lacuna::earlier_results::replace : lacuna::earlier_results::refuse);
+    auto const beside = study_beside(o);
+    std::size_t from_cache = 0;
+    out.stay(); // for the cache
+    auto const packings = run_equilibrium_study(o, from_cache);
+    out.keep();
+    study_result const study = as_study(o, packings);
+    auto const cells = table3(packings, study.highest_MPa);
+    write_whole(out.file("table3.csv"), equilibrium_csv(cells, study, beside ? &*beside : nullptr));
+    draw_equilibrium_figures(o.out, study, cells, packings);
+    // Last, because its presence means that the study is finished.
+    write_whole(out.file(equilibrium_study_file), text_of(study, packings));
+    if (o.quiet) return 0;
+    std::fputs(equilibrium_table(cells, study, beside ? &*beside : nullptr).c_str(), stdout);
+    for (auto const& p : packings)
+        if (p.ended != "complete" && p.ended != "limit")
+            std::printf("  %s %llu: %s at %.4g MPa\n", std::string(lacuna::to_string(p.zone)).c_str(),
+                        static_cast<unsigned long long>(p.seed),
+                        p.ended == "mechanism" ? "equilibrium ends" : "no convergence", p.load_MPa);
+    print_paths(out, {"table3.csv", equilibrium_study_file});
+    std::printf("%zu packings; from the cache: %zu\n", packings.size(), from_cache);
+    return 0;
+}
+
 int merge(study_options const& o) {
     study_result const whole = merge_studies(o.merge);
     lacuna::run_directory out(o.out, "--out", study_results(), lacuna::earlier_results::replace);
@@ -71,6 +106,7 @@ int merge(study_options const& o) {
 
 int study(study_options const& o) {
     if (!o.merge.empty()) return merge(o);
+    if (o.equilibrium) return study_in_equilibrium(o);
     // Results of the same study stay until the new ones are ready.
     lacuna::run_directory out(o.out, "--out", study_results(), lacuna::earlier_results::replace);
     if (!o.force) refuse_other_study(o.out, study_frame(o));

@@ -115,7 +115,7 @@ public:
     /// \param set sets the loads: callable set(value), or set(from, to) to displace something from one value to another
     ///        by move(), turn() or move_wall(). It is called often, with values of the stage in any order; from == to
     ///        asks for the loads at that value.
-    /// \param watch called after each equilibrium with a load_point
+    /// \param watch called after each equilibrium with a load_point. If it returns bool, false ends the stage there.
     /// \throws as solve(), and std::invalid_argument for a stage out of range
     template <class Set, class Watch = ignore_point>
     load_path follow(load_stage const& stage, Set&& set, Watch&& watch = {}) {
@@ -139,7 +139,7 @@ public:
             if (!path.reached()) break;
             path.points.push_back({at, path.broken, path.last.unbalanced, path.last.largest_force,
                                    path.factorisations, path.energy});
-            watch(path.points.back());
+            if (!goes_on(watch, path.points.back())) break;
         }
         return path;
     }
@@ -148,6 +148,15 @@ public:
     std::span<event_type const> events() const noexcept { return stepper_.events(); }
 
 private:
+    template <class Watch>
+    static bool goes_on(Watch& watch, load_point const& point) {
+        if constexpr (std::is_convertible_v<std::invoke_result_t<Watch&, load_point const&>, bool>) {
+            return watch(point);
+        } else {
+            watch(point);
+            return true;
+        }
+    }
     template <class Set>
     void set_loads(Set& set, double from, double to) {
         stepper_.drop_given();

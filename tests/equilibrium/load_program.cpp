@@ -152,6 +152,19 @@ TEST_CASE("stages of a load program: up and down again", "[equilibrium][loads]")
     REQUIRE(eq.events().size() == 1);
 }
 
+TEST_CASE("an observer ends a stage of a load program", "[equilibrium][loads]") {
+    auto sim = ropes({10});
+    lacuna::equilibrium<plane> eq(sim, {.tolerance = 1e-10});
+    std::size_t seen = 0;
+    auto const path = eq.follow({0, 8, 8}, [&](double force) { sim.apply(4, {force, 0}); },
+                                [&](lacuna::load_point const& point) { return ++seen, point.value < 3; });
+    REQUIRE(path.reached());
+    REQUIRE(path.value == 3);
+    REQUIRE(seen == 4);
+    REQUIRE(path.points.size() == 4);
+    REQUIRE_THAT(sim.position(4)[0] - 8 * radius, WithinRel(3 / (stiffness / 4), 1e-6));
+}
+
 TEST_CASE("a load program refuses what has no meaning", "[equilibrium][loads]") {
     auto sim = ropes({10});
     lacuna::equilibrium<plane> eq(sim, {.failures = lacuna::failure_choice::worst_of_groups});

@@ -8,6 +8,7 @@
 #include <lacuna/draw/plot.hpp>
 
 #include "cartilage/study/study_result.hpp"
+#include "cartilage/study/study_series.hpp"
 #include "cartilage/study/study_table.hpp"
 
 /// \file
@@ -36,6 +37,9 @@ std::vector<figure> draw_first_crack_figures(std::string const& directory, study
 std::vector<figure> draw_crack_figures(std::string const& directory, study_result const& study);
 /// Times at which half of each layer's bonds were broken, one figure per zone.
 std::vector<figure> draw_layer_figures(std::string const& directory, study_result const& study);
+/// The moments of one zone's layers. \param moment label of the axis \param event "lose half of its bonds"
+figure draw_layer_order(std::string const& directory, lacuna::cartilage_zone zone, layer_order const& order,
+                        std::string const& moment, std::string const& event);
 /// Damage at the loads of the paper's Figures 10 to 12.
 std::vector<figure> draw_snapshot_figures(std::string const& directory, study_result const& study);
 /// Fronts of stress and pore pressure, one figure per snapshot with profiles.

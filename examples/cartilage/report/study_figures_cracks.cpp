@@ -115,18 +115,18 @@ void draw_map(canvas& page, crack_map const& map, double length_um, double heigh
                  {legend_mark::ring, figure_style.ink, "first of a packing"}});
 }
 
-std::string sentence_of(layer_order const& order) {
+std::string sentence_of(layer_order const& order, std::string const& event) {
     auto const often = std::max_element(order.layers.begin(), order.layers.end(),
                                         [](auto const& a, auto const& b) { return a.first < b.first; });
     auto const& top = order.layers.front();
     std::string words = "In " + std::to_string(top.first) + " of " +
                         count_text(std::size_t(order.packings), "packing") + " layer " + top.name +
-                        " is the first to lose half of its bonds";
+                        " is the first to " + event;
     if (often->name == top.name) return words + "; no other layer is first more often.";
     return words + "; most often it is layer " + often->name + " (" + std::to_string(often->first) + ").";
 }
 
-void draw_layers(canvas& page, layer_order const& order, rectangle const& frame) {
+void draw_layers(canvas& page, layer_order const& order, rectangle const& frame, std::string const& moment) {
     double earliest = 1e300, latest = 0;
     std::vector<lacuna::plot_tick> names;
     for (std::size_t k = 0; k < order.layers.size(); ++k) {
@@ -137,7 +137,7 @@ void draw_layers(canvas& page, layer_order const& order, rectangle const& frame)
         }
     }
     page.clear({1, 1, 1});
-    plot plane(page, frame, {0, 1.06 * latest, "time when half of its bonds were broken (ns)", axis_scale::linear, 7},
+    plot plane(page, frame, {0, 1.06 * latest, moment, axis_scale::linear, 7},
                {-double(order.layers.size()) + 0.4, 0.6, "layer", axis_scale::linear, 6, names}, figure_style);
     plane.draw_axes();
     for (std::size_t k = 0; k < order.layers.size(); ++k) {
@@ -175,14 +175,20 @@ std::vector<figure> draw_crack_figures(std::string const& directory, study_resul
     return figures;
 }
 
+figure draw_layer_order(std::string const& directory, lacuna::cartilage_zone zone, layer_order const& order,
+                        std::string const& moment, std::string const& event) {
+    rectangle const frame{118, 64, 462, 64 + std::max(120.0, 22.0 * double(order.layers.size()))};
+    return draw_zone_figure(directory, "layers", zone, sentence_of(order, event), frame.high + 60,
+                            [&](canvas& page) { draw_layers(page, order, frame, moment); });
+}
+
 std::vector<figure> draw_layer_figures(std::string const& directory, study_result const& study) {
     std::vector<figure> figures;
     for (auto const zone : all_zones) {
         auto const order = layer_order_of(packings_of(study, zone));
-        if (order.packings == 0) continue;
-        rectangle const frame{118, 64, 462, 64 + std::max(120.0, 22.0 * double(order.layers.size()))};
-        figures.push_back(draw_zone_figure(directory, "layers", zone, sentence_of(order), frame.high + 60,
-                                           [&](canvas& page) { draw_layers(page, order, frame); }));
+        if (order.packings > 0)
+            figures.push_back(draw_layer_order(directory, zone, order, "time when half of its bonds were broken (ns)",
+                                               "lose half of its bonds"));
     }
     return figures;
 }

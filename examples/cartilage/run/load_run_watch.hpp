@@ -4,12 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <iterator>
-#include <map>
-#include <optional>
-#include <string>
-#include <utility>
-#include <vector>
 
 #include <lacuna/core/error.hpp>
 #include <lacuna/observe/energy_ledger.hpp>
@@ -18,6 +12,7 @@
 
 #include "cartilage/common/interruption.hpp"
 #include "cartilage/run/criterion.hpp"
+#include "cartilage/run/damage_count.hpp"
 #include "cartilage/run/ending.hpp"
 #include "cartilage/run/load_run.hpp"
 #include "cartilage/run/results.hpp"
@@ -58,54 +53,6 @@ private:
     double earlier_residual_ = 0, sample_residual_ = 0; // J
 };
 
-/// Counts the damage of fibres and layers break by break.
-class damage_count {
-public:
-    explicit damage_count(specimen const& s) : cut_(s.fibres.size(), 0), layer_of_(s.fibres.size()) {
-        std::map<std::pair<int, int>, load_run::layer_damage> by_layer;
-        for (auto const& fibre : s.fibres) {
-            load_run::layer_damage& layer = by_layer[{int(fibre.zone), fibre.layer}];
-            layer.zone = lacuna::to_string(fibre.zone);
-            layer.layer = fibre.layer;
-            layer.bonds += int(fibre.bonds.size());
-            bonds_ += int(fibre.bonds.size());
-        }
-        for (std::size_t f = 0; f < s.fibres.size(); ++f) {
-            auto const found = by_layer.find({int(s.fibres[f].zone), s.fibres[f].layer});
-            layer_of_[f] = std::size_t(std::distance(by_layer.begin(), found));
-        }
-        for (auto const& [key, layer] : by_layer) layers_.push_back(layer);
-    }
-
-    /// Adds a break. Breaks of cross links do not count.
-    void add(load_run::crack const& crack) {
-        if (crack.fibre < 0) return;
-        ++broken_;
-        cut_count_ += cut_[std::size_t(crack.fibre)] == 0;
-        cut_[std::size_t(crack.fibre)] = 1;
-        load_run::layer_damage& layer = layers_[layer_of_[std::size_t(crack.fibre)]];
-        ++layer.broken;
-        if (!layer.half_broken_time && 2 * layer.broken >= layer.bonds) layer.half_broken_time = crack.time;
-        if (!first_crack_time) first_crack_time = crack.time;
-        if (!complete_time && 10 * cut_count_ >= 9 * cut_.size()) complete_time = crack.time;
-    }
-
-    std::vector<load_run::layer_damage> const& layers() const { return layers_; }
-    /// The first layer of the zone nearest to the surface; null: there is no fibre.
-    load_run::layer_damage const* first_layer() const { return layers_.empty() ? nullptr : &layers_.front(); }
-    double broken_fraction() const { return bonds_ == 0 ? 0.0 : double(broken_) / double(bonds_); }
-    double cut_fraction() const { return cut_.empty() ? 0.0 : double(cut_count_) / double(cut_.size()); }
-
-    std::optional<double> first_crack_time, complete_time;
-
-private:
-    std::vector<char> cut_;
-    std::size_t cut_count_ = 0;
-    std::vector<std::size_t> layer_of_;
-    std::vector<load_run::layer_damage> layers_;
-    int bonds_ = 0, broken_ = 0;
-};
-
 /// Follows a run at one load. It counts the damage, decides whether the criterion is met, and marks the run as invalid
 /// if its energy ledger or kinetic energy are wrong or the library stops it as unstable.
 class load_run_watch {
@@ -143,7 +90,7 @@ public:
     void on_break(Event const& event, Simulation const&) {
         crack_record const c = crack_of(specimen_, event);
         result_.cracks.push_back({c.time, c.position[0] - specimen_.left, c.position[1], c.shear, c.fibre});
-        damage_.add(result_.cracks.back());
+        damage_.add(c.fibre, c.time);
         broke_ = true;
     }
 
@@ -177,9 +124,9 @@ public:
 private:
     bool is_met() const {
         switch (criterion_) {
-        case criterion::first_crack: return damage_.first_crack_time.has_value();
+        case criterion::first_crack: return damage_.first_crack.has_value();
         case criterion::capacity: return damage_.first_layer() && damage_.first_layer()->half_broken_time;
-        case criterion::complete: return damage_.complete_time.has_value();
+        case criterion::complete: return damage_.complete.has_value();
         default: return false;
         }
     }
@@ -188,8 +135,8 @@ private:
     void update_result(double time) {
         result_.end_time = time;
         result_.energy_residual_fraction = energy_.residual();
-        result_.first_crack_time = damage_.first_crack_time;
-        result_.complete_time = damage_.complete_time;
+        result_.first_crack_time = damage_.first_crack;
+        result_.complete_time = damage_.complete;
         result_.broken_fraction = damage_.broken_fraction();
         result_.cut_fraction = damage_.cut_fraction();
         result_.layers = damage_.layers();

@@ -54,7 +54,7 @@ void sort_cracks(specimen const& s, run_result& r) {
 }
 
 lacuna::scene damage_scene(specimen const& s, options const& o, std::span<lacuna::vec<double, 2> const> position,
-                           std::span<crack_record const> cracks, std::vector<lacuna::scene::pore> pores, double time) {
+                           std::span<crack_record const> cracks, std::vector<lacuna::scene::pore> pores) {
     using lacuna::scene;
     scene picture = scene_of(s, o);
     for (std::size_t i = 0; i < position.size(); ++i) picture.particles[i].position = position[i];
@@ -74,10 +74,8 @@ lacuna::scene damage_scene(specimen const& s, options const& o, std::span<lacuna
     for (auto i : s.loaded) picture.loads.push_back({position[std::size_t(i)], {0, -1}});
     picture.pores = std::move(pores);
 
-    picture.subtitle += lacuna::formatted(", t = %.2f ns", 1e9 * time);
     double const share = intact.empty() ? 0.0 : 100.0 * double(cracks.size()) / double(intact.size());
     picture.captions.push_back(std::to_string(cracks.size()) + lacuna::formatted(" bonds broken (%.1f %%)", share));
-    if (!cracks.empty()) picture.captions.push_back(lacuna::formatted("first at %.2f ns", 1e9 * cracks.front().time));
     return picture;
 }
 

@@ -83,8 +83,9 @@ crack_record crack_of(specimen const& s, lacuna::break_event<2> const& event);
 /// Counts the cracks of `r` in each layer (sorted by zone, then layer) and the fibres with at least one crack.
 void sort_cracks(specimen const& s, run_result& r);
 
-/// The scene of the damage. \param position of each particle, by id, m \param pores at that time \param time s
+/// The scene of the damage, without the moment at which it is. \param position of each particle, by id, m
+/// \param pores at that moment
 lacuna::scene damage_scene(specimen const& s, options const& o, std::span<lacuna::vec<double, 2> const> position,
-                           std::span<crack_record const> cracks, std::vector<lacuna::scene::pore> pores, double time);
+                           std::span<crack_record const> cracks, std::vector<lacuna::scene::pore> pores);
 
 } // namespace cartilage

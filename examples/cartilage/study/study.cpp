@@ -114,6 +114,23 @@ void refuse_other_study(std::string const& directory, study_result const& wanted
                                  (other->back() == 's' ? " differ" : " differs") + "); --force replaces it");
 }
 
+std::optional<study_result> study_beside(study_options const& o) {
+    bool const asked = !o.beside.empty();
+    std::string const directory = asked ? o.beside : "cartilage-study";
+    if (!asked && !std::ifstream(directory + "/" + study_file)) return std::nullopt;
+    study_result found = read_study(directory, "--beside ");
+    study_result wanted = study_frame(o);
+    wanted.lowest_MPa = found.lowest_MPa;
+    wanted.highest_MPa = found.highest_MPa;
+    wanted.resolution = found.resolution;
+    if (auto const other = difference(found, wanted)) {
+        if (!asked) return std::nullopt;
+        throw usage_error("--beside " + directory + ": must be a study of the same model: its " + *other +
+                          (other->back() == 's' ? " differ" : " differs"));
+    }
+    return found;
+}
+
 std::vector<packing_request> requests_of(study_options const& o) {
     std::vector<packing_request> requests;
     std::size_t piece = 0;

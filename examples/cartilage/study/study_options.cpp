@@ -2,6 +2,7 @@
 #include "cartilage/study/study_options.hpp"
 
 #include <algorithm>
+#include <string>
 
 #include <CLI/CLI.hpp>
 
@@ -28,6 +29,41 @@ void read_shard(std::string const& word, study_options& o) {
     if (parts.size() != 2) refuse("--shard", word, rule);
     o.shards = whole_number<int>("--shard", parts[1], 1, 10000, rule);
     o.shard = whole_number<int>("--shard", parts[0], 1, o.shards, rule);
+}
+
+/// Options of a study in equilibrium, as text from the command line.
+struct equilibrium_arguments {
+    std::string load = "400", steps = "40";
+    bool drained = false;
+};
+
+void add_equilibrium_options(CLI::App& app, study_options& o, equilibrium_arguments& args) {
+    app.add_flag("--equilibrium", o.equilibrium,
+                 "from equilibrium to equilibrium in place of runs in time; writes equilibrium.json and table3.csv");
+    app.add_option("--load", args.load, "with --equilibrium: highest load, MPa (400)")->type_name("MPA");
+    app.add_option("--steps", args.steps, "with --equilibrium: equal steps to that load (40)")->type_name("N");
+    app.add_flag("--drained", args.drained, "with --equilibrium: pore pressures stay zero");
+    app.add_option("--beside", o.beside,
+                   "with --equilibrium: an explicit study of the same choices, for its columns (cartilage-study)")
+        ->type_name("DIR");
+}
+
+/// \throws usage_error for options that only one kind of study has
+void read_equilibrium(CLI::App const& app, equilibrium_arguments const& args, study_options& o) {
+    if (!o.equilibrium) {
+        for (char const* name : {"--load", "--steps", "--drained", "--beside"})
+            if (app.count(name) > 0) throw usage_error(std::string(name) + ": must be given with --equilibrium only");
+        return;
+    }
+    if (app.count("--no-snapshots") > 0)
+        throw usage_error("--no-snapshots: must not be given with --equilibrium, which has none");
+    equilibrium_request& r = o.in_equilibrium;
+    r.model = o.model;
+    r.model.load_MPa = positive_number("--load", args.load, "a number of MPa > 0");
+    r.steps = whole_number<int>("--steps", args.steps, 1, 100000, "a whole number from 1 to 100000");
+    r.drained = args.drained;
+    r.failures = lacuna::failure_choice::worst_of_groups;
+    validate(r);
 }
 
 } // namespace
@@ -85,12 +121,16 @@ std::optional<study_options> parse_study_command_line(int argc, char const* cons
     add_run_options(app, model);
     app.add_flag("--no-snapshots", [&](std::int64_t) { o.pictures = false; }, "leave out the runs of Figures 10 to 12");
     add_output_options(app, o, "another study");
+    equilibrium_arguments in_equilibrium;
+    add_equilibrium_options(app, o, in_equilibrium);
     CLI::App& merge = *app.add_subcommand("merge", "Join the parts of a study and write the report");
     merge.add_option("DIR", o.merge, "results of the parts")->required()->type_name("");
     add_output_options(merge, o, "another study");
     if (!parse_arguments(app, argc, argv)) return std::nullopt;
     if (merge.parsed()) return o;
+    if (o.equilibrium && app.count("--out") == 0) o.out = "cartilage-equilibrium-study";
     read_arguments(model, pool, o);
+    read_equilibrium(app, in_equilibrium, o);
     if (!shard.empty()) read_shard(shard, o);
     validate_specimens(o);
     return o;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cartilage/common/option_parsing.hpp"
+#include "cartilage/run/equilibrium_run.hpp"
 #include "cartilage/study/search.hpp"
 
 namespace cartilage {
@@ -21,6 +22,9 @@ struct study_options {
     int shard = 1, shards = 1;                  ///< part `shard` of `shards`
     std::string out, cache;
     bool force = false, quiet = false, pictures = true;
+    bool equilibrium = false;                   ///< load programs in equilibrium in place of runs
+    equilibrium_request in_equilibrium;         ///< highest load, steps and pores of these programs
+    std::string beside;                         ///< directory of an explicit study to show beside it; empty: the usual
     std::vector<std::string> merge;             ///< directories of parts to join; empty: run a study
 };
 

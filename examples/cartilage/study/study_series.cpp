@@ -119,6 +119,19 @@ load_run const* representative_run(packing_result const& packing) {
     return most;
 }
 
+void layer_order::add(std::vector<std::pair<std::string, std::optional<double>>> const& moments) {
+    double earliest = 1e300;
+    for (auto const& [name, moment] : moments) earliest = std::min(earliest, moment.value_or(1e300));
+    packings += earliest < 1e300;
+    for (auto const& [name, moment] : moments) {
+        auto known = std::find_if(layers.begin(), layers.end(), [&](layer const& l) { return l.name == name; });
+        if (known == layers.end()) known = layers.insert(layers.end(), {name, {}, 0});
+        if (!moment) continue;
+        known->times.push_back(*moment);
+        known->first += *moment == earliest;
+    }
+}
+
 layer_order layer_order_of(std::vector<packing_result const*> const& packings) {
     layer_order order;
     for (packing_result const* packing : packings) {
@@ -126,19 +139,13 @@ layer_order layer_order_of(std::vector<packing_result const*> const& packings) {
         for (load_run const& p : packing->runs)
             if (!p.invalid && (run == nullptr || half_broken_layers(p) > half_broken_layers(*run))) run = &p;
         if (run == nullptr) continue;
-        double earliest = 1e300;
-        for (load_run::layer_damage const& layer : run->layers)
-            earliest = std::min(earliest, layer.half_broken_time.value_or(1e300));
-        order.packings += earliest < 1e300;
+        std::vector<std::pair<std::string, std::optional<double>>> moments;
         for (load_run::layer_damage const& layer : run->layers) {
-            std::string const name = layer.zone + " " + std::to_string(layer.layer);
-            auto known = std::find_if(order.layers.begin(), order.layers.end(),
-                                      [&](layer_order::layer const& l) { return l.name == name; });
-            if (known == order.layers.end()) known = order.layers.insert(order.layers.end(), {name, {}, 0});
-            if (!layer.half_broken_time) continue;
-            known->times.push_back(1e9 * *layer.half_broken_time);
-            known->first += *layer.half_broken_time == earliest;
+            auto const& half = layer.half_broken_time;
+            moments.emplace_back(layer.zone + " " + std::to_string(layer.layer),
+                                 half ? std::optional(1e9 * *half) : std::nullopt);
         }
+        order.add(moments);
     }
     return order;
 }

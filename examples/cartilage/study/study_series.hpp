@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <lacuna/core/vec.hpp>
@@ -47,16 +48,20 @@ first_crack_times first_crack_times_of(std::vector<packing_result const*> const&
 /// cracks. Null if no run has cracks.
 load_run const* representative_run(packing_result const& packing);
 
-/// Times at which half of each layer's bonds were broken. Each packing gives the run with most such layers.
+/// Moments at which layers fail.
 struct layer_order {
     struct layer {
         std::string name;
-        std::vector<double> times; ///< ns, one per packing in which half of its bonds broke
+        std::vector<double> times; ///< one per packing in which it failed: a time, ns, or a load, MPa
         int first = 0;             ///< packings in which no other layer was earlier
     };
     std::vector<layer> layers; ///< in the order of the runs
     int packings = 0;          ///< packings with at least one such layer
+
+    /// Adds a packing: names of its layers, each with its moment; none: it did not fail.
+    void add(std::vector<std::pair<std::string, std::optional<double>>> const& moments);
 };
+/// Times at which half of each layer's bonds were broken, ns. Each packing gives the run with most such layers.
 layer_order layer_order_of(std::vector<packing_result const*> const& packings);
 
 } // namespace cartilage

@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
 
 #include <lacuna/core/error.hpp>
 #include <lacuna/core/text.hpp>
@@ -51,6 +54,30 @@ std::optional<double> paper_load(lacuna::cartilage_zone zone, threshold what) {
     return load > 0 ? std::optional<double>(load) : std::nullopt;
 }
 
+table3_cell cell_of(lacuna::cartilage_zone zone, threshold what, std::vector<std::optional<double>> const& loads,
+                    double highest_MPa) {
+    table3_cell cell;
+    cell.zone = zone;
+    cell.what = what;
+    for (auto const& load : loads) {
+        if (!load) {
+            ++cell.invalid;
+            continue;
+        }
+        cell.loads.push_back(*load);
+        cell.none += *load > highest_MPa * (1 + 1e-9);
+    }
+    std::sort(cell.loads.begin(), cell.loads.end());
+    cell.paper = paper_load(zone, what);
+    if (cell.loads.empty()) return cell;
+    cell.first_quartile = quantile_of_sorted(cell.loads, 0.25);
+    cell.median = quantile_of_sorted(cell.loads, 0.5);
+    cell.third_quartile = quantile_of_sorted(cell.loads, 0.75);
+    cell.of_median = median_interval(cell.loads);
+    if (cell.paper) cell.paper_percentile = percentile_of(*cell.paper, cell.loads);
+    return cell;
+}
+
 std::vector<table3_cell> table3(study_result const& study) {
     std::vector<table3_cell> cells;
     for (auto const zone : all_zones) {
@@ -58,31 +85,14 @@ std::vector<table3_cell> table3(study_result const& study) {
                                          [&](packing_result const& p) { return p.zone == zone; });
         if (!studied) continue;
         for (threshold const what : all_thresholds) {
-            table3_cell cell;
-            cell.zone = zone;
-            cell.what = what;
-            for (packing_result const& packing : study.packings) {
-                if (packing.zone != zone) continue;
-                auto const load = known_load(packing, what, study);
-                if (!load) {
-                    ++cell.invalid;
-                    continue;
-                }
-                if (std::isfinite(*load))
-                    lacuna::require_in("study.packings.found", *load, study.lowest_MPa * (1 - 1e-9),
+            std::vector<std::optional<double>> loads;
+            for (packing_result const& packing : study.packings)
+                if (packing.zone == zone) loads.push_back(known_load(packing, what, study));
+            table3_cell cell = cell_of(zone, what, loads, study.highest_MPa);
+            for (double const load : cell.loads)
+                if (std::isfinite(load))
+                    lacuna::require_in("study.packings.found", load, study.lowest_MPa * (1 - 1e-9),
                                        study.highest_MPa * (1 + 1e-9));
-                cell.loads.push_back(*load);
-                cell.none += *load > study.highest_MPa * (1 + 1e-9);
-            }
-            std::sort(cell.loads.begin(), cell.loads.end());
-            cell.paper = paper_load(zone, what);
-            if (!cell.loads.empty()) {
-                cell.first_quartile = quantile_of_sorted(cell.loads, 0.25);
-                cell.median = quantile_of_sorted(cell.loads, 0.5);
-                cell.third_quartile = quantile_of_sorted(cell.loads, 0.75);
-                cell.of_median = median_interval(cell.loads);
-                if (cell.paper) cell.paper_percentile = percentile_of(*cell.paper, cell.loads);
-            }
             cells.push_back(std::move(cell));
         }
     }

@@ -36,6 +36,10 @@ struct table3_cell {
     int count() const { return int(loads.size()); }
 };
 
+/// The cell of these loads of packings, MPa; infinite: above the highest load; none: undecided.
+table3_cell cell_of(lacuna::cartilage_zone zone, threshold what, std::vector<std::optional<double>> const& loads,
+                    double highest_MPa);
+
 /// The cells of all zones of the study, zone by zone. A packing without a load holds if a valid run at the highest load
 /// shows it, has failed if a valid run at the lowest load shows it, and is invalid otherwise.
 std::vector<table3_cell> table3(study_result const& study);

@@ -44,8 +44,8 @@ struct ignore_point {
 /// What a stage of a load program found.
 struct load_path {
     equilibrium_outcome outcome = equilibrium_outcome::reached;
-    /// Value of the program at the end: the last one if all equilibria were reached, else the value at which there is
-    /// none, or at which none was found.
+    /// Value of the program at the end: the last one if all equilibria were reached, that at which the observer ended
+    /// the stage, else the value at which there is none, or at which none was found.
     double value = 0;
     std::vector<load_point> points; ///< the equilibria
     equilibrium_result last;        ///< of the last solve
