@@ -204,8 +204,8 @@ private:
         panel_map rest(update, f.height, f.height);
         for (int c = 0; c < f.height; c += block) {
             int const count = std::min(block, f.height - c);
-            rest.block(c, c, f.height - c, count).noalias() -=
-                below.bottomRows(f.height - c) * scaled_.middleCols(c, count);
+            subtract(rest.block(c, c, f.height - c, count), below.bottomRows(f.height - c),
+                     scaled_.middleCols(c, count));
         }
         return true;
     }
@@ -218,6 +218,15 @@ private:
             for (int r = c; r < child.height; ++r) column[at[r]] += from[r];
         }
     }
+    /// Subtracts a product in slices. Eigen cuts deeper sums where the processor's caches end, and other processors
+    /// would get other bits.
+    template <class To, class A, class B>
+    static void subtract(To&& to, A const& a, B const& b) {
+        for (Eigen::Index k = 0; k < a.cols(); k += deep) {
+            Eigen::Index const count = std::min<Eigen::Index>(deep, a.cols() - k);
+            to.noalias() -= a.middleCols(k, count) * b.middleRows(k, count);
+        }
+    }
     /// Factorises columns, which begin with their diagonal, in halves.
     bool factorise(Eigen::Ref<Eigen::MatrixXd> panel, int first) {
         int const width = int(panel.cols()), rows = int(panel.rows());
@@ -225,7 +234,7 @@ private:
         int const half = (width / 2 + narrow - 1) / narrow * narrow, rest = width - half;
         if (!factorise(panel.leftCols(half), first)) return false;
         scaled_.noalias() = pivots_.segment(first, half).asDiagonal() * panel.block(half, 0, rest, half).transpose();
-        panel.bottomRightCorner(rows - half, rest).noalias() -= panel.bottomLeftCorner(rows - half, half) * scaled_;
+        subtract(panel.bottomRightCorner(rows - half, rest), panel.bottomLeftCorner(rows - half, half), scaled_);
         return factorise(panel.bottomRightCorner(rows - half, rest), first + half);
     }
     bool factorise_narrow(Eigen::Ref<Eigen::MatrixXd> panel, int first) {
@@ -242,7 +251,7 @@ private:
         return true;
     }
 
-    static constexpr int narrow = 8, block = 64;
+    static constexpr int narrow = 8, block = 64, deep = 120;
     std::vector<int> first_;    // first unknown of each node
     std::vector<int> position_; // column of each unknown
     std::vector<int> rows_, in_parent_;
