@@ -342,6 +342,11 @@ private:
     /// Takes the bonds that failed by their laws, and in each other group the one that fails first.
     std::size_t break_bonds() {
         std::size_t failures = take_failures();
+        if (failures == 0 && !failing_.empty()) {
+            // Rounding saved the bond at which the increment ends. Without it the next one would end here again.
+            s_.pairs.break_bond(s_.store, failing_.front().label, 1.0);
+            failures = take_failures();
+        }
         if (parameters_.failures == failure_choice::first || failures == 0) return failures;
         std::vector<int> groups;
         auto const is_new = [&](std::int32_t label) {
