@@ -21,7 +21,7 @@
 
 namespace {
 
-enum exit_status { done = 0, failed = 1, bad_request = 2 };
+enum exit_status { done = 0, failed = 1, bad_request = 2, not_converged = 3 };
 
 /// The content of the command line.
 struct command {
@@ -64,11 +64,12 @@ double read_number(std::string const& option, std::string const& word) {
 command parse_command_line(int argc, char const* const* argv) {
     command w;
     auto& q = w.request;
-    std::string words[std::size(numbers)], seed, steps;
+    std::string words[std::size(numbers)], seed, steps, load_steps;
     CLI::App app(
         "Uniaxial compression of a bonded specimen between two platens.\n"
         "Writes uniaxial.csv, uniaxial.json, uniaxial.png, uniaxial.svg. SI units.\n"
-        "Exit status: 0 done, 1 a file could not be written, 2 bad request, 128 + number of a signal that stopped it.",
+        "Exit status: 0 done, 1 a file could not be written, 2 bad request, 3 an equilibrium was not found,\n"
+        "128 + number of a signal that stopped it.",
         "uniaxial");
     app.get_formatter()->column_width(28);
     app.add_option("--specimen", w.specimen, "random or lattice (random)")->type_name("KIND");
@@ -79,6 +80,10 @@ command parse_command_line(int argc, char const* const* argv) {
     app.add_option("--seed", seed, "of the packing and the strengths, a whole number (" + std::to_string(q.seed) + ")")
         ->type_name("N");
     app.add_option("--steps", steps, "number of steps to the final strain (" + std::to_string(q.steps) + ")")
+        ->type_name("N");
+    app.add_flag("--equilibrium", q.equilibrium, "static equilibria at growing strains instead of steps in time");
+    app.add_option("--load-steps", load_steps,
+                   "number of equilibria to the final strain (" + std::to_string(q.load_steps) + ")")
         ->type_name("N");
     app.add_option("--out", w.out, "directory for the files (.)")->type_name("DIR");
     app.add_flag("--elastic", q.elastic, "bonds never break; measures only the moduli");
@@ -96,6 +101,10 @@ command parse_command_line(int argc, char const* const* argv) {
     if (app.count("--seed") > 0)
         q.seed = std::uint64_t(lacuna::read_whole("--seed", seed, 0, std::numeric_limits<long long>::max()));
     if (app.count("--steps") > 0) q.steps = lacuna::read_whole("--steps", steps, 1000, 100000000);
+    if (app.count("--load-steps") > 0) q.load_steps = int(lacuna::read_whole("--load-steps", load_steps, 1, 1000000));
+    if (q.equilibrium && app.count("--steps") > 0) lacuna::refuse("--steps", steps, "left out with --equilibrium");
+    if (!q.equilibrium && app.count("--load-steps") > 0)
+        lacuna::refuse("--load-steps", load_steps, "left out without --equilibrium");
     q.validate();
     return w;
 }
@@ -127,10 +136,12 @@ int main(int argc, char** argv) {
         else
             uniaxial::print(stdout, outcome);
         programs::finish_output();
-        if (outcome.ended.rfind("stopped", 0) != 0) return done;
+        bool const stopped = outcome.ended.rfind("stopped", 0) == 0;
+        if (!stopped && outcome.ended != "not converged") return done;
         std::fprintf(stderr, "uniaxial: %s after step %lld; results so far are in %s\n", outcome.ended.c_str(),
-                     outcome.steps, directory.file("uniaxial.csv").c_str());
-        return 128 + lacuna::stop_signal();
+                     outcome.asked.equilibrium ? outcome.load_steps : outcome.steps,
+                     directory.file("uniaxial.csv").c_str());
+        return stopped ? 128 + lacuna::stop_signal() : not_converged;
     } catch (std::invalid_argument const& bad) {
         std::fprintf(stderr, "uniaxial: %s\n", bad.what());
         return bad_request;

@@ -24,15 +24,24 @@ std::string to_json(outcome const& o) {
     all["particles"] = o.particles;
     all["bonds"] = o.bonds;
     all["ended"] = o.ended;
-    all["steps"] = o.steps;
-    all["time_step"] = o.time_step;
+    if (q.equilibrium) {
+        all["load_steps"] = o.load_steps;
+        all["factorisations"] = o.factorisations;
+    } else {
+        all["steps"] = o.steps;
+        all["time_step"] = o.time_step;
+    }
     all["settings"] = {{"width", q.width}, {"height", q.height}, {"radius", q.radius}, {"thickness", q.thickness},
                        {"seed", q.seed}, {"bond_modulus", q.bond_modulus}, {"shear_ratio", q.shear_ratio},
                        {"tensile_strength", q.tensile_strength}, {"cohesion", q.cohesion},
                        {"internal_friction", q.internal_friction}, {"friction", q.friction},
                        // null: no scatter; JSON has no infinity
                        {"weibull_modulus", q.weibull_modulus}, {"elastic", q.elastic}, {"strain", q.strain},
-                       {"steps", q.steps}};
+                       {"equilibrium", q.equilibrium}};
+    if (q.equilibrium)
+        all["settings"]["load_steps"] = q.load_steps;
+    else
+        all["settings"]["steps"] = q.steps;
     all["figures"] = nlohmann::ordered_json::array();
     for (auto const& f : o.figures()) {
         nlohmann::ordered_json row{{"quantity", f.quantity}, {"unit", f.unit}, {"value", f.value}};
@@ -46,7 +55,12 @@ std::string to_json(outcome const& o) {
 }
 
 void print(std::FILE* out, outcome const& o) {
-    std::fprintf(out, "%zu particles, %zu bonds, %lld steps of %.3g s\n", o.particles, o.bonds, o.steps, o.time_step);
+    std::fprintf(out, "%zu particles, %zu bonds, ", o.particles, o.bonds);
+    if (o.asked.equilibrium)
+        std::fprintf(out, "%lld load steps, %d factorisations, ended by: %s\n", o.load_steps, o.factorisations,
+                     o.ended.c_str());
+    else
+        std::fprintf(out, "%lld steps of %.3g s\n", o.steps, o.time_step);
     for (auto const& f : o.figures()) {
         std::fprintf(out, "  %-32s %14.6g %-3s", f.quantity.c_str(), f.value, f.unit.c_str());
         if (f.reference) std::fprintf(out, " closed form %.6g, error %.2g", *f.reference, error_of(f));

@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
+#include <utility>
 
 #include <lacuna/core/error.hpp>
+#include <lacuna/equilibrium.hpp>
 #include <lacuna/laws/weibull.hpp>
 #include <lacuna/loads/compression.hpp>
 #include <lacuna/observe/crack_record.hpp>
@@ -105,7 +108,7 @@ std::array<double, 2> middle_strains(simulation const& sim, packing const& befor
     return {-fit[1].slope(), -fit[0].slope()};
 }
 
-lacuna::scene scene_of(simulation const& sim, lacuna::crack_record<lacuna::break_event<2>> const& cracks) {
+lacuna::scene scene_of(simulation const& sim, std::vector<lacuna::break_event<2>> const& cracks) {
     lacuna::scene s;
     s.left = s.bottom = std::numeric_limits<double>::infinity();
     s.right = s.top = -s.left;
@@ -118,7 +121,7 @@ lacuna::scene scene_of(simulation const& sim, lacuna::crack_record<lacuna::break
         s.bottom = std::min(s.bottom, x[1] - r);
         s.top = std::max(s.top, x[1] + r);
     }
-    for (auto const& e : cracks.events()) {
+    for (auto const& e : cracks) {
         auto const a = sim.position(std::size_t(e.particles[0])), b = sim.position(std::size_t(e.particles[1]));
         s.cracks.push_back({(a + b) / 2, b - a,
                             e.mode == lacuna::bond_state::broken_in_tension ? lacuna::scene::break_mode::tension
@@ -145,6 +148,144 @@ void find_moduli(outcome& o) {
     o.poisson_ratio = -lateral.slope();
 }
 
+/// A specimen between its platens, and what is recorded of it.
+class test_run {
+public:
+    test_run(request const& asked, lacuna::growing_file* rows, programs::terminal_progress& shown)
+        : specimen_(make_specimen(asked)), sim_(specimen_, settings(asked, specimen_)), rows_(rows), shown_(shown) {
+        o_.asked = asked;
+        o_.ended = "strain";
+        o_.particles = specimen_.size();
+        o_.bonds = specimen_.bonds.size();
+        if (rows_) rows_->begin();
+        keep_row();
+    }
+
+    /// Explicit dynamics. The platens reach their speed in a tenth of the time.
+    void run_steps() {
+        auto const& asked = o_.asked;
+        o_.time_step = sim_.resolve_time_step();
+        double const whole = double(asked.steps) * o_.time_step, ramp = 0.1 * whole;
+        auto test = measure(asked.strain / (whole - 0.5 * ramp), ramp);
+        test.load(sim_);
+        lacuna::crack_record<lacuna::break_event<2>> cracks;
+        shown_.begin(double(asked.steps), sim_.size());
+        long long const interval = std::max(1LL, asked.steps / rows_per_run);
+        while (o_.ended == "strain" && sim_.steps() < asked.steps) {
+            sim_.run(std::min(interval, asked.steps - sim_.steps()), cracks, shown_, lacuna::stop_on_signal{});
+            count(std::span(cracks.events()).subspan(cracks_.size()));
+            add_row(test);
+            if (lacuna::stop_signal() != 0 && o_.ended != "failure" && sim_.steps() < asked.steps)
+                o_.ended = stopped_by();
+        }
+        o_.steps = sim_.steps();
+    }
+
+    /// Equilibria at growing strains.
+    void follow_equilibria() {
+        auto const test = measure(1, 0); // an equilibrium knows no rate
+        lacuna::equilibrium<model> rest(sim_);
+        int const last = o_.asked.load_steps;
+        shown_.begin(last, sim_.size());
+        while (o_.ended == "strain" && o_.load_steps < last) {
+            auto const strain = [&](long long step) { return o_.asked.strain * double(step) / last; };
+            try {
+                follow(rest, test, {strain(o_.load_steps), strain(o_.load_steps + 1), 1});
+            } catch (stopped const&) {
+                o_.ended = stopped_by();
+            }
+            shown_.passed(o_.load_steps);
+        }
+    }
+
+    outcome finish() {
+        shown_.finish();
+        if (rows_) rows_->flush();
+        find_moduli(o_);
+        o_.end = scene_of(sim_, cracks_);
+        return std::move(o_);
+    }
+
+private:
+    using measurement = lacuna::compression_test<2>;
+    struct stopped {};
+
+    measurement measure(double strain_rate, double ramp_time) const {
+        lacuna::compression_parameters c;
+        c.axis = 1;
+        c.ramp_time = ramp_time;
+        c.strain_rate = strain_rate;
+        return {c, specimen_, false, o_.asked.thickness};
+    }
+
+    /// A step to a higher strain ends with a row. Each strain at which bonds fail has two more: the stress is highest
+    /// where the first bond reaches its strength, and lower when all is in equilibrium again.
+    void follow(lacuna::equilibrium<model>& rest, measurement const& test, lacuna::load_stage const& stage) {
+        std::size_t counted = 0, failed = 0; // bonds
+        auto const count_new = [&] {
+            count(rest.events().subspan(std::exchange(counted, rest.events().size())));
+        };
+        auto const set = [&](double from, double to) {
+            if (lacuna::stop_signal() != 0) throw stopped{};
+            if (from == to) {
+                if (rest.events().size() > failed) add_row(test);
+                failed = rest.events().size();
+                return;
+            }
+            if (counted < failed) {
+                count_new();
+                add_row(test);
+            }
+            double const each = 0.5 * test.length(1) * (to - from);
+            rest.move_wall(0, {0, each});
+            rest.move_wall(1, {0, -each});
+        };
+        auto const path = rest.follow(stage, set, [&](lacuna::load_point const& point) {
+            if (point.value == stage.from) return;
+            count_new();
+            add_row(test);
+            ++o_.load_steps;
+        });
+        o_.factorisations += path.factorisations;
+        count_new();
+        if (path.reached() || o_.ended != "strain") return;
+        o_.ended = path.outcome == lacuna::equilibrium_outcome::mechanism ? "mechanism" : "not converged";
+    }
+
+    template <class Event>
+    void count(std::span<Event const> events) {
+        for (auto const& e : events) {
+            cracks_.push_back(e);
+            ++(e.mode == lacuna::bond_state::broken_in_tension ? row_.tension_cracks : row_.shear_cracks);
+        }
+    }
+    void add_row(measurement const& test) {
+        auto const state = test.state(sim_);
+        auto const middle = middle_strains(sim_, specimen_);
+        row_.strain = state.strain[1];
+        row_.stress = state.stress[1];
+        row_.middle_strain = middle[0];
+        row_.lateral_strain = middle[1];
+        keep_row();
+        highest_ = std::max(highest_, row_.stress);
+        if (!cracks_.empty() && row_.stress < 0.5 * highest_) o_.ended = "failure";
+    }
+    void keep_row() {
+        o_.curve.push_back(row_);
+        if (rows_) rows_->add(row_of(row_));
+    }
+    static std::string stopped_by() { return "stopped by " + lacuna::signal_name(lacuna::stop_signal()); }
+
+    packing specimen_;
+    simulation sim_;
+    lacuna::growing_file* rows_;
+    programs::terminal_progress& shown_;
+    outcome o_;
+    std::vector<lacuna::break_event<2>> cracks_;
+    sample row_;
+    double highest_ = 0;
+};
+
 } // namespace
 
 void request::validate() const {
@@ -166,6 +307,7 @@ void request::validate() const {
     if (!(weibull_modulus >= 0.1)) refuse("weibull_modulus", weibull_modulus, "at least 0.1, or inf");
     if (!(strain > 0 && strain <= 0.2)) refuse("strain", strain, "> 0 and <= 0.2");
     lacuna::require_in("steps", double(steps), 1000, 1e8);
+    lacuna::require_in("load_steps", load_steps, 1, 1e6);
 }
 
 std::string row_heading() {
@@ -180,63 +322,13 @@ std::string row_of(sample const& s) {
 
 outcome run(request const& asked, lacuna::growing_file* rows, programs::terminal_progress* progress) {
     asked.validate();
-    auto const specimen = make_specimen(asked);
-    simulation sim(specimen, settings(asked, specimen));
-    outcome o;
-    o.asked = asked;
-    o.ended = "strain";
-    o.particles = specimen.size();
-    o.bonds = specimen.bonds.size();
-    o.time_step = sim.resolve_time_step();
-    lacuna::compression_parameters c;
-    double const whole = double(asked.steps) * o.time_step, ramp = 0.1 * whole;
-    c.axis = 1;
-    c.ramp_time = ramp;
-    c.strain_rate = asked.strain / (whole - 0.5 * ramp);
-    lacuna::compression_test<2> test(c, specimen, false, asked.thickness);
-    test.load(sim);
-    lacuna::crack_record<lacuna::break_event<2>> cracks;
-    sample row;
-    auto const add_row = [&] {
-        o.curve.push_back(row);
-        if (rows) rows->add(row_of(row));
-    };
-    if (rows) rows->begin();
-    add_row();
     programs::terminal_progress hidden(false);
-    auto& shown = progress ? *progress : hidden;
-    shown.begin(double(asked.steps), sim.size());
-    std::size_t counted = 0;
-    double highest = 0;
-    long long const interval = std::max(1LL, asked.steps / rows_per_run);
-    while (sim.steps() < asked.steps) {
-        sim.run(std::min(interval, asked.steps - sim.steps()), cracks, shown, lacuna::stop_on_signal{});
-        auto const state = test.state(sim);
-        auto const middle = middle_strains(sim, specimen);
-        for (; counted < cracks.events().size(); ++counted)
-            ++(cracks.events()[counted].mode == lacuna::bond_state::broken_in_tension ? row.tension_cracks
-                                                                                      : row.shear_cracks);
-        row.strain = state.strain[1];
-        row.stress = state.stress[1];
-        row.middle_strain = middle[0];
-        row.lateral_strain = middle[1];
-        add_row();
-        highest = std::max(highest, row.stress);
-        if (counted > 0 && row.stress < 0.5 * highest) {
-            o.ended = "failure";
-            break;
-        }
-        if (lacuna::stop_signal() != 0 && sim.steps() < asked.steps) {
-            o.ended = "stopped by " + lacuna::signal_name(lacuna::stop_signal());
-            break;
-        }
-    }
-    shown.finish();
-    if (rows) rows->flush();
-    o.steps = sim.steps();
-    find_moduli(o);
-    o.end = scene_of(sim, cracks);
-    return o;
+    test_run test(asked, rows, progress ? *progress : hidden);
+    if (asked.equilibrium)
+        test.follow_equilibria();
+    else
+        test.run_steps();
+    return test.finish();
 }
 
 double lattice_modulus(double shear_ratio) { return 2 * std::sqrt(3.0) * (1 + shear_ratio) / (3 + shear_ratio); }
@@ -247,10 +339,13 @@ double strip_modulus(int chains, double shear_ratio) {
 }
 
 std::vector<figure> outcome::figures() const {
-    std::vector<figure> f{{"Young's modulus", "Pa", young_modulus}, {"Poisson's ratio", "", poisson_ratio}};
-    if (asked.specimen == specimen_kind::lattice && asked.elastic) {
-        f[0].reference = asked.bond_modulus * strip_modulus(chains_of(asked), asked.shear_ratio);
-        f[1].reference = lattice_poisson_ratio(asked.shear_ratio);
+    std::vector<figure> f;
+    if (std::isfinite(young_modulus)) { // otherwise the curve has too few rows
+        f = {{"Young's modulus", "Pa", young_modulus}, {"Poisson's ratio", "", poisson_ratio}};
+        if (asked.specimen == specimen_kind::lattice && asked.elastic) {
+            f[0].reference = asked.bond_modulus * strip_modulus(chains_of(asked), asked.shear_ratio);
+            f[1].reference = lattice_poisson_ratio(asked.shear_ratio);
+        }
     }
     if (asked.elastic) return f;
     auto const& at = curve[peak];

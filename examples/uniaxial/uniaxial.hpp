@@ -40,12 +40,15 @@ struct request {
     bool elastic = false;           ///< bonds never break; only the moduli are measured
     double strain = 0.015;          ///< the run ends at this strain at the latest
     long long steps = 60000;        ///< number of steps to that strain
+    bool equilibrium = false;       ///< static equilibria instead of steps in time
+    int load_steps = 100;           ///< equilibria up to that strain, besides those after failures of bonds
 
     /// \throws std::invalid_argument naming field, value and rule.
     void validate() const;
 };
 
-/// One row of the stress-strain curve.
+/// One row of the stress-strain curve. With equilibria the cracks of a row are those before the bonds failed that its
+/// stress breaks.
 struct sample {
     double strain = 0;         ///< of the specimen, from the motion of the platens
     double stress = 0;         ///< mean force on the platens divided by the initial section, Pa
@@ -72,7 +75,11 @@ struct outcome {
     std::size_t particles = 0, bonds = 0;
     long long steps = 0;
     double time_step = 0;
-    std::string ended; ///< "strain", "failure", or "stopped by SIGNAL"; then the curve ends early
+    long long load_steps = 0; ///< that were reached
+    int factorisations = 0;   ///< of stiffness matrices
+    /// "strain", "failure", or "stopped by SIGNAL"; then the curve ends early. Of equilibria also "mechanism": there is
+    /// none beyond the end of the curve, and "not converged": none was found.
+    std::string ended;
     lacuna::scene end; ///< the specimen after the run
 
     /// The results for tables.

@@ -65,7 +65,8 @@ public:
     /// Share of what is given that one increment takes.
     double given_share() const noexcept {
         double const most = largest_given(), longest = 0.2 * longest_motion();
-        return most > longest ? longest / most : 1.0;
+        // A share that rounding leaves just below 1 would be asked for again, without end.
+        return most > longest * (1 + 1e-9) ? longest / most : 1.0;
     }
 
     /// \param group_of group of each bond; negative: none
