@@ -129,6 +129,7 @@ public:
         for (idle_ = 0; !done && idle_ < parameters_.solves && regularisation < 1e6; ++idle_) {
             ++result.solves;
             if (!find_increment(regularisation)) {
+                last_.failures = 0;
                 regularisation *= 8;
                 continue;
             }
@@ -298,6 +299,10 @@ private:
         double const across = std::pow(double(s_.store.size()), dim == 2 ? 0.5 : 2.0 / 3);
         scales.force = std::max({system_.total_load() / across, count > 0 ? std::sqrt(squares / double(count)) : 0.0,
                                  0.1 * scales.stiffness * system_.largest_given()});
+        // A bond that has failed leaves forces that are far from balance: a small barrier would shorten the first steps.
+        if (last_.failures > 0)
+            if (auto const left = system_.unbalanced(); left.size() > 0)
+                scales.force = std::max(scales.force, left.template lpNorm<Eigen::Infinity>());
         double extent = 0;
         for (std::size_t k = 0; k < s_.store.size(); ++k)
             for (int axis = 0; axis < dim; ++axis) extent = std::max(extent, std::fabs(s_.store.position(k)[axis]));
