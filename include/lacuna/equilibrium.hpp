@@ -11,7 +11,8 @@
 
 #include <lacuna/equilibrium/load_program.hpp>
 #include <lacuna/equilibrium/parameters.hpp>
-#include <lacuna/equilibrium/stepper.hpp>
+#include <lacuna/equilibrium/slow_stepper.hpp>
+#include <lacuna/equilibrium/slow_time.hpp>
 #include <lacuna/equilibrium/unknowns.hpp>
 #include <lacuna/simulation.hpp>
 
@@ -22,8 +23,9 @@ LACUNA_BEGIN_PACKS
 /// that it takes. It works on the particles, bonds, contacts, pores and loads of the simulation: one may go from steps
 /// to an equilibrium and back at any time, and a checkpoint of the simulation holds both.
 ///
-/// Loads and pressures are those that act at the time of the simulation, which does not advance. Velocities are set to
-/// zero. A bond that is too strongly loaded in the equilibrium fails.
+/// Loads and pressures are those that act at the time of the simulation, which does not advance, except in slow time:
+/// advance() lets fluid flow while the particles are at rest. Velocities are set to zero. A bond that is too strongly
+/// loaded in the equilibrium fails.
 template <class Model>
 class equilibrium {
 public:
@@ -144,7 +146,57 @@ public:
         return path;
     }
 
-    /// Bonds that failed in the last solve() or follow(), in order.
+    /// \name Slow time
+    /// \{
+    /// Advances the simulation in time, always in equilibrium: fluid flows while the particles rest. Each step solves
+    /// for displacements and pressures together by backward Euler, with loads and sources at its end, and is as long as
+    /// its error allows. Velocities that are prescribed to particles and walls move them. What has changed at once
+    /// before the call (loads, move()) acts first, without flow. A step ends where a bond fails; what follows from the
+    /// failure happens at that moment, without flow. See events().
+    /// \param duration s
+    /// \param observer callable (double time, slow_result const& so_far), called after each step with the simulation at
+    ///        that time; if it returns false, the run stops
+    /// \throws std::invalid_argument for a duration that is not positive, for a parameter out of range, and as solve()
+    template <class Observer>
+    slow_result advance(double duration, slow_time_parameters const& p, Observer&& observer) {
+        require_positive("duration", duration);
+        return advance_to(sim_.time() + duration, p, observer);
+    }
+    slow_result advance(double duration, slow_time_parameters const& p = {}) {
+        return advance(duration, p, [](double, slow_result const&) {});
+    }
+    /// The same up to a time, s. A run that is resumed from a checkpoint of the simulation and history() has the same
+    /// bits as one that was not interrupted.
+    template <class Observer>
+    slow_result advance_to(double end_time, slow_time_parameters const& p, Observer&& observer) {
+        p.validate("slow_time");
+        if (!(end_time > sim_.time() && std::isfinite(end_time)))
+            refuse("end_time", end_time, "finite and after the present, " + to_text(sim_.time()) + " s");
+        slow_result result;
+        stepper_.clear_events();
+        int const factorised = stepper_.factorisations();
+        bool go_on = stepper_.settle_changes(result);
+        while (go_on && sim_.time() < end_time && result.steps < p.steps) {
+            go_on = stepper_.make_slow_step(p, end_time, result);
+            result.factorisations = stepper_.factorisations() - factorised;
+            result.broken = events().size();
+            if (go_on && sim_.time() >= end_time) result.outcome = slow_outcome::finished;
+            if constexpr (std::is_same_v<decltype(observer(0.0, std::as_const(result))), bool>)
+                go_on = observer(sim_.time(), std::as_const(result)) && go_on;
+            else
+                observer(sim_.time(), std::as_const(result));
+        }
+        return result;
+    }
+    slow_result advance_to(double end_time, slow_time_parameters const& p = {}) {
+        return advance_to(end_time, p, [](double, slow_result const&) {});
+    }
+    /// What the next step in slow time needs of those before; to be saved with a checkpoint.
+    slow_history& history() noexcept { return stepper_.history(); }
+    slow_history const& history() const noexcept { return stepper_.history(); }
+    /// \}
+
+    /// Bonds that failed in the last solve(), follow() or advance(), in order.
     std::span<event_type const> events() const noexcept { return stepper_.events(); }
 
 private:
@@ -228,7 +280,7 @@ private:
 
     simulation_type& sim_;
     simulation_state<Model>& s_;
-    equilibrium_stepper<Model> stepper_;
+    slow_stepper<Model> stepper_;
 };
 LACUNA_END_PACKS
 

@@ -19,6 +19,7 @@
 #include <lacuna/equilibrium/event.hpp>
 #include <lacuna/equilibrium/interior_point.hpp>
 #include <lacuna/equilibrium/parameters.hpp>
+#include <lacuna/equilibrium/slow_time.hpp>
 #include <lacuna/equilibrium/system.hpp>
 #include <lacuna/simulation/simulation_state.hpp>
 #include <lacuna/simulation/step_clock.hpp>
@@ -37,7 +38,8 @@ public:
     using vector = Eigen::VectorXd;
 
     equilibrium_stepper(simulation_state<Model>& state, step_clock<Model>& clock, equilibrium_parameters const& p)
-        : s_(state), clock_(clock), parameters_(p), system_(state), account_(state, system_) {}
+        : s_(state), clock_(clock), parameters_(p), drained_(p.pores == pore_condition::drained), system_(state),
+          account_(state, system_) {}
 
     equilibrium_parameters const& settings() const noexcept { return parameters_; }
 
@@ -74,7 +76,8 @@ public:
 
     /// Refuses what no equilibrium knows. Brings histories and lists up to date with the positions of the last step,
     /// and the particles to rest.
-    void begin() {
+    /// \param flowing whether apertures and throats are needed
+    void begin(bool flowing = false) {
         if constexpr (has_fluid<Model>) {
             if (!s_.filled())
                 throw std::logic_error("equilibrium: the model has a fluid but fill_pores() was not called");
@@ -86,9 +89,11 @@ public:
             refuse("equilibrium.failures", "worst_of_groups", "first until group_bonds() has given each bond a group");
         list(); // before anything changes: it refuses laws
         remember_prescribed();
-        double const last = clock_.step() > 0 ? clock_.previous_step() : 0.0;
+        // Prescribed velocities that came back after an equilibrium have moved nothing since.
+        double const last = clock_.step() > 0 && !rests_.continues(clock_.now()) ? clock_.previous_step() : 0.0;
         s_.pairs.set_force_retention(s_.store, false, s_.settings.threads);
         evaluate_laws(last);
+        if (flowing) open_throats();
         take_failures();
         stop_particles();
         update_lists(true);
@@ -110,6 +115,7 @@ public:
         s_.changes.clear();
         s_.ledger.close();
         clock_.state_changed();
+        rests_.close(clock_.now());
     }
 
     /// Goes on at constant loads, and through all failures of bonds, until the state is in equilibrium or has none.
@@ -219,10 +225,21 @@ public:
         return balanced;
     }
 
-private:
+protected:
     static constexpr int per_particle = unknowns<dim>::per_particle;
 
-    void list() { system_.begin(parameters_.pores == pore_condition::drained, clock_.time()); }
+    void list() {
+        system_.set_flow_time(flow_time_);
+        system_.begin(drained_, clock_.time() + flow_time_);
+    }
+    /// Brings apertures up to date with the present forces. In slow time fluid flows through all throats.
+    void open_throats() {
+        if constexpr (has_fluid<Model>) {
+            s_.fluid.get()->refresh_apertures(s_.store.particle_records(), s_.pairs.normal_forces(),
+                                              s_.settings.threads);
+            s_.fluid.get()->activate_all_throats();
+        }
+    }
 
     void remember_prescribed() {
         velocity_.clear();
@@ -309,7 +326,9 @@ private:
         // Given displacements may end in a state without any force, of which no share can be a tolerance.
         if (!(system_.total_load() > 0))
             resistance_ = std::max(resistance_, 1e-2 * scales.stiffness * system_.largest_given());
-        negligible_ = std::max(8 * std::numeric_limits<double>::epsilon() * extent * scales.stiffness,
+        // In slow time the stiffness of closed pores, which may be far above that of the pairs, counts too.
+        double const stiffest = std::max(scales.stiffness, slow_ ? system_.stiffest_pore() : 0.0);
+        negligible_ = std::max(8 * std::numeric_limits<double>::epsilon() * extent * stiffest,
                                0.1 * parameters_.tolerance * resistance_);
         scales.regularisation = regularisation * scales.stiffness;
         // Where nothing else resists, the forces are those of the regularisation: to solve further has no meaning.
@@ -332,18 +351,28 @@ private:
         for (int c = 0; c < s_.pairs.chunks(); ++c) s_.pairs.add_path(c, most);
         for (std::size_t b = 0; b * s_.walls.block_particles < s_.store.size(); ++b) s_.walls.add_path(b, most);
         evaluate_laws(1.0);
+        if (flow_time_ > 0) clock_.pass(flow_time_);
         std::size_t const failures = break_bonds();
         account_.book_laws();
         account_.remember_fluid();
-        if constexpr (has_fluid<Model>)
-            s_.fluid.get()->settle_pores(s_.store.positions(), s_.store.radii().data(),
-                                         parameters_.pores == pore_condition::sealed);
+        settle_fluid();
         stop_particles();
         update_lists(failures > 0);
         account_.book_fluid();
         list();
         account_.read();
         return failures;
+    }
+    /// Brings the fluid to the new positions of the particles. The time in which it flows has passed then.
+    void settle_fluid() {
+        double const dt = std::exchange(flow_time_, 0.0);
+        if constexpr (has_fluid<Model>) {
+            auto const points = s_.store.positions();
+            auto const* radii = s_.store.radii().data();
+            if (!(dt > 0)) return s_.fluid.get()->settle_pores(points, radii, !drained_);
+            s_.fluid.get()->take_flow(system_.flow().finish(points, radii), points, radii, dt);
+            s_.fluid.deactivate_slow_throats(s_.store, s_.pairs);
+        }
     }
     /// Takes the bonds that failed by their laws, and in each other group the one that fails first.
     std::size_t break_bonds() {
@@ -405,6 +434,9 @@ private:
     simulation_state<Model>& s_;
     step_clock<Model>& clock_;
     equilibrium_parameters parameters_;
+    bool drained_, slow_ = false;
+    double flow_time_ = 0; // in which fluid flows in the next increment, s
+    slow_history rests_;   // the end of the last equilibrium
     equilibrium_system<Model> system_;
     energy_account<Model> account_;
     std::vector<double> given_; // displacements still to be made, of all freedoms, m

@@ -57,8 +57,9 @@ public:
             for (Eigen::Index b = 0; b <= a; ++b, ++slot)
                 if (slot_[slot] >= 0) matrix_.valuePtr()[slot_[slot]] += same(element, a, b) ? 2 * k(a, b) : k(a, b);
     }
-    void add_diagonal(double value) {
-        for (int const d : diagonal_) matrix_.valuePtr()[d] += value;
+    /// Adds a number to the first entries of the diagonal.
+    void add_diagonal(double value, int entries) {
+        for (int k = 0; k < entries; ++k) matrix_.valuePtr()[diagonal_[std::size_t(k)]] += value;
     }
 
     /// \return whether the factorisation exists

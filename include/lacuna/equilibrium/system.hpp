@@ -17,6 +17,7 @@
 #include <lacuna/equilibrium/frictional_contact.hpp>
 #include <lacuna/equilibrium/pair_operator.hpp>
 #include <lacuna/equilibrium/parameters.hpp>
+#include <lacuna/equilibrium/slow_flow.hpp>
 #include <lacuna/equilibrium/stiffness_matrix.hpp>
 #include <lacuna/equilibrium/unknowns.hpp>
 #include <lacuna/interactions/kinematics.hpp>
@@ -62,7 +63,12 @@ public:
     using rotation = vec<double, rotation_dim<dim>>;
     static constexpr int per_particle = matrices::per_particle;
 
+    using flow_type = slow_flow<typename Model::flow::template solver<double, dim>, dim>;
+
     explicit equilibrium_system(state_type& state) : s_(state) {}
+
+    /// From the next begin() on fluid flows for dt [s] in each increment, and pressures are unknowns too; 0: no flow.
+    void set_flow_time(double dt) noexcept { flow_time_ = dt; }
 
     /// Reads the committed state: its unknowns, pairs, pores and histories. Nothing that is held moves until give().
     /// \param drained pressures stay
@@ -76,6 +82,7 @@ public:
         give({}, {});
         start_.resize(s_.store.size());
         for (std::size_t k = 0; k < s_.store.size(); ++k) start_[k] = s_.store.position(k);
+        find_pressures();
         matrix_.begin(find_places());
         list_bonds();
         list_contacts();
@@ -99,8 +106,35 @@ public:
         wall_now_ = wall_motion_;
     }
 
-    int count() const noexcept { return numbers_.count(); }
     unknowns<dim> const& numbers() const noexcept { return numbers_; }
+    /// Number of unknowns: displacements, then pressures where fluid flows.
+    int count() const noexcept { return displacements() + pressures_; }
+    int displacements() const noexcept { return numbers_.count(); }
+    /// The fluid of a step in slow time.
+    flow_type& flow() noexcept { return flow_; }
+    /// Largest error of the equations of the fluid, as a force, N.
+    double flow_error() const noexcept {
+        if constexpr (has_fluid<Model>)
+            if (pressures_ > 0) return flow_.error(rounding_);
+        return 0;
+    }
+    /// Largest stiffness of a closed pore against the motion of one of its particles, N/m.
+    double stiffest_pore() const {
+        double most = 0;
+        if constexpr (has_fluid<Model>)
+            for (auto const& p : pores_) {
+                auto const& flow = *s_.fluid.get();
+                auto const now = flow.pore_geometry(p.pore, s_.store.positions(), s_.store.radii().data());
+                for (auto const& t : now.traction)
+                    most = std::max(most, flow.settings().bulk_modulus / now.volume * dot(t, t));
+            }
+        return most;
+    }
+    /// Scales the pressures' unknowns. \param stiffness of a pair, N/m
+    void scale_pressures([[maybe_unused]] double stiffness) {
+        if constexpr (has_fluid<Model>)
+            if (pressures_ > 0) flow_.set_scale(stiffness, s_.store.positions(), s_.store.radii().data());
+    }
     std::size_t contacts() const noexcept { return contacts_.size(); }
     stiffness_matrix& matrix() noexcept { return matrix_; }
 
@@ -152,8 +186,11 @@ public:
 
     /// Linearises everything at an increment: the forces of pairs, pores and loads on the unknowns, N, and their
     /// stiffness.
-    void linearise(vector const& u, vector& forces) {
+    /// \param u pressures that are held are set
+    void linearise(vector& u, vector& forces) {
         place(u);
+        if constexpr (has_fluid<Model>)
+            if (pressures_ > 0) flow_.update(u, s_.store.positions(), s_.store.radii().data());
         carried_.assign(start_.size(), 0.0);
         matrix_.set_zero();
         forces.setZero(count());
@@ -170,6 +207,8 @@ public:
         for (auto& c : contacts_) add_contact(c, forces);
         if constexpr (has_fluid<Model>)
             for (auto& p : pores_) add_pore(p, to_unknown);
+        if constexpr (has_fluid<Model>)
+            if (pressures_ > 0) flow_.linearise(forces, matrix_);
     }
     /// Shortens the displacements of particles that carry no force, which are loose in their cages: nothing but the
     /// barrier moved them.
@@ -314,7 +353,8 @@ public:
     }
     /// Largest displacement of a freedom in an increment, m, with given ones.
     double largest_motion(vector const& u) const {
-        return std::max(u.size() > 0 ? u.lpNorm<Eigen::Infinity>() : 0.0, largest_given());
+        int const n = displacements();
+        return std::max(n > 0 ? u.head(n).lpNorm<Eigen::Infinity>() : 0.0, largest_given());
     }
     /// Displacements and surface rotations at which the forces were found last, of all freedoms, m.
     std::vector<double> const& motion() const noexcept { return motion_; }
@@ -363,7 +403,21 @@ private:
                 places[std::size_t(n)] = {};
                 for (int axis = 0; axis < dim; ++axis) places[std::size_t(n)][std::size_t(axis)] = start_[k][axis];
             }
+        add_pore_places(places);
         return places;
+    }
+    /// Places of the pressures, in the middle of their pores.
+    void add_pore_places([[maybe_unused]] std::vector<stiffness_matrix::place>& places) const {
+        if constexpr (has_fluid<Model>) {
+            if (pressures_ == 0 || s_.fluid.get()->network().bare()) return;
+            auto const& net = s_.fluid.get()->network();
+            for (std::size_t p = 0; p < net.pores(); ++p) {
+                auto& place = places[std::size_t(displacements()) + p];
+                auto const middle = pore_middle(net, p, s_.store.positions());
+                place = {};
+                for (int axis = 0; axis < dim; ++axis) place[std::size_t(axis)] = middle[axis];
+            }
+        }
     }
 
     void list_bonds() {
@@ -416,11 +470,22 @@ private:
         std::copy_n(numbers_.of(j).begin(), per_particle, n.begin() + per_particle);
         return matrix_.add_element(n);
     }
+    void find_pressures() {
+        pressures_ = 0;
+        if constexpr (has_fluid<Model>)
+            if (flow_time_ > 0 && s_.filled()) pressures_ = int(s_.fluid.get()->network().pores());
+        double extent = 0;
+        for (auto const& x : start_)
+            for (int axis = 0; axis < dim; ++axis) extent = std::max(extent, std::fabs(x[axis]));
+        rounding_ = 4 * std::numeric_limits<double>::epsilon() * extent;
+    }
     void list_pores() {
         pores_.clear();
         if constexpr (has_fluid<Model>) {
-            if (!s_.filled() || s_.fluid.get()->network().bare()) return;
+            if (!s_.filled()) return;
             auto const& net = s_.fluid.get()->network();
+            if (pressures_ > 0) flow_.begin(*s_.fluid.get(), flow_time_, numbers_, matrix_);
+            if (net.bare()) return;
             for (std::size_t p = 0; p < net.pores(); ++p) {
                 std::array<int, corners * std::size_t(dim)> n{};
                 for (std::size_t c = 0; c < corners; ++c)
@@ -645,6 +710,7 @@ private:
     }
 
     pore_state measure(pore_element const& p) const {
+        if (pressures_ > 0) return {flow_.pressure(p.pore), 0, flow_.traction(p.pore)};
         auto const& flow = *s_.fluid.get();
         auto const& net = flow.network();
         auto const now = flow.pore_geometry(p.pore, s_.store.positions(), s_.store.radii().data());
@@ -694,6 +760,9 @@ private:
     std::vector<pore_element> pores_;
     std::vector<std::size_t> own_elements_; // of the model's own forces, by particle
     double largest_ = 0, time_ = 0;
+    flow_type flow_;
+    double flow_time_ = 0, rounding_ = 0; // s; of positions, m
+    int pressures_ = 0;
 };
 LACUNA_END_PACKS
 

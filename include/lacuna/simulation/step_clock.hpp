@@ -44,6 +44,8 @@ public:
     moment now() const noexcept { return {step_, time()}; }
     step_control<Model> const& control() const noexcept { return control_; }
 
+    /// Lets time pass in which no steps were made. \param duration s
+    void pass(double duration) noexcept { epoch_ = {time() + duration, step_}; }
     /// Discards the length of the first step, because its reasons have changed; the next resolve() determines it again.
     void reset() noexcept { time_step_.reset(); }
     /// Call it when particles were fixed or released.

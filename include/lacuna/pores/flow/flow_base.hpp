@@ -23,6 +23,7 @@
 #include <lacuna/pores/network/pore_network.hpp>
 #include <lacuna/pores/flow/pore_pass.hpp>
 #include <lacuna/pores/flow/sealed_pressure.hpp>
+#include <lacuna/pores/flow/solved_flow.hpp>
 #include <lacuna/pores/flow/throat_pass.hpp>
 #include <lacuna/pores/flow/tractions.hpp>
 
@@ -162,6 +163,33 @@ public:
             network_.volume[p] = network_.old_volume[p] = now;
         }
     }
+
+    /// \name Steps whose flow is solved together with the motion of the particles (equilibrium::advance())
+    /// \{
+    /// Lets fluid flow through all throats, also those that deactivate_slow_throats() skips.
+    void activate_all_throats() {
+        std::fill(network_.inactive.begin(), network_.inactive.end(), 0);
+        throats_.collect_active(network_);
+    }
+    /// Pores on which flow sources act directly, with the sources and their shares.
+    auto const& fed_pores() const noexcept { return exchange_.pores(); }
+    /// Takes the result of a step of dt [s], with the particles at their new positions. Updates ledger and sources.
+    void take_flow(solved_flow const& next, points_view<Real, Dim> points, Real const* radii, Real dt) {
+        open_step(ledger_);
+        std::fill(throat_sums_.begin(), throat_sums_.end(), throat_sums<Real>{});
+        for (std::size_t t = 0; t < network_.open_throats(); ++t) network_.flow[t] = Real(next.flow[t]);
+        add_up_throats(dt, 1);
+        auto pores = take_pores(network_, next, parameters_.bulk_modulus,
+                                [&](std::size_t p) { return pore_geometry(p, points, radii).volume; });
+        add_up_throats(dt, 1);
+        throat_sums<Real> throats;
+        for (auto const& s : throat_sums_) throats += s;
+        exchange_.take(network_, next, throats);
+        exchange_.count(network_, dt, true);
+        exchange_.close(network_, dt);
+        book(ledger_, pores, throats);
+    }
+    /// \}
 
     /// Energy stored in the compressed fluid, sum of V p^2 / 2 K_f, J.
     Real storage_energy() const noexcept {

@@ -30,4 +30,12 @@ sealed_response sealed_pressure(Parameters const& p, double pressure, double vol
             std::max(now - liquid * std::exp((pressure - p.minimum_pressure) / p.bulk_modulus), 0.0)};
 }
 
+/// Volume at the pressure `before` of the liquid that fills the volume `now` at `pressure`: the inverse of
+/// sealed_pressure(). Below the least pressure, `pressure` is the one that a liquid without vapour would have.
+/// \param p flow_parameters
+template <class Parameters>
+double volume_before(Parameters const& p, double before, double pressure, double now) noexcept {
+    return now * std::exp((pressure - before) / p.bulk_modulus);
+}
+
 } // namespace lacuna

@@ -10,6 +10,7 @@
 #include <lacuna/core/error.hpp>
 #include <lacuna/pores/flow/flow_ledger.hpp>
 #include <lacuna/pores/flow/flow_sums.hpp>
+#include <lacuna/pores/flow/solved_flow.hpp>
 #include <lacuna/pores/network/pore_network.hpp>
 
 namespace lacuna {
@@ -103,6 +104,20 @@ public:
             throats.gross += fed < Real(0) ? -fed : fed;
         }
         count(net, dt, flows);
+    }
+
+    /// Adds the volumes that the sources supplied to the fed pores in a solved step. Call it after take_pores().
+    /// \param throats sums of the pass; corrected here
+    template <int Dim>
+    void take(pore_network<Real, Dim>& net, solved_flow const& next, throat_sums<Real>& throats) const noexcept {
+        for (std::size_t k = 0; k < pores_.size(); ++k) {
+            auto const& f = pores_[k];
+            Real const fed = Real(next.fed[k]);
+            net.sources[f.source].volume += next.fed[k];
+            throats.reservoir_work += Real(next.middle_pressure(f.pore)) * fed;
+            throats.inflow += fed;
+            throats.gross += fed < Real(0) ? -fed : fed;
+        }
     }
 
     /// Adds the inflow through drained throats in dt [s] to the sources. apply() calls it.
