@@ -112,4 +112,16 @@ private:
     std::vector<mode> modes_;
 };
 
+/// Stress of confined compression, divided by modulus times final strain. The strain rises linearly within `ramp` and
+/// then stays (Mow, Kuei, Lai, Armstrong 1980, J. Biomech. Eng. 102, 73). Times are dimensionless as above.
+inline double relaxing_stress(double time, double ramp, int modes = 2000) {
+    double const risen = time < ramp ? time : ramp;
+    double sum = 0;
+    for (int n = 1; n <= modes; ++n) {
+        double const rate = n * n * std::numbers::pi * std::numbers::pi;
+        sum += 2 * (std::exp(-rate * (time - risen)) - std::exp(-rate * time)) / rate;
+    }
+    return (risen + sum) / ramp;
+}
+
 } // namespace poroelasticity

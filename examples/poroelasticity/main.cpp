@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <lacuna/core/error.hpp>
 #include <lacuna/observe/run_directory.hpp>
 #include <lacuna/observe/stop_signal.hpp>
 
@@ -20,7 +21,7 @@ enum exit_status { done = 0, failed = 1, bad_request = 2 };
 
 struct request {
     std::string name, out = ".";
-    bool quick = false, json = false, force = false;
+    bool quick = false, json = false, force = false, slow = false;
     poroelasticity::outcome (*run)(bool quick, programs::terminal_progress& progress) = nullptr;
 };
 
@@ -32,16 +33,23 @@ request parse_command_line(int argc, char const* const* argv) {
                  "Writes CASE.csv and CASE.png. Exit status: 0 done, 1 failed, 2 bad request, 128 + number of a signal "
                  "that stopped it.",
                  "poroelasticity");
-    app.add_option("--case", r.name, "terzaghi, mandel, cryer or darcy")->required()->type_name("CASE");
+    app.add_option("--case", r.name, "terzaghi, mandel, cryer, darcy, creep or relaxation")
+        ->required()
+        ->type_name("CASE");
     app.add_option("--out", r.out, "directory for the files (.)")->type_name("DIR");
     app.add_flag("--force", r.force, "replace earlier files of the case in DIR");
     app.add_flag("--json", r.json, "print quantity, value, reference and relative_error as JSON");
     app.add_flag("--quick", r.quick, "a coarse model and a short run");
+    app.add_flag("--slow-time", r.slow, "terzaghi, mandel, cryer: from early to late times, particles always at rest");
     app.set_version_flag("--version", programs::version_text("poroelasticity"));
     if (!programs::parse(app, argc, argv)) return r;
-    constexpr decltype(r.run) runs[] = {poroelasticity::run_terzaghi, poroelasticity::run_mandel,
-                                        poroelasticity::run_cryer, poroelasticity::run_darcy};
-    r.run = runs[programs::index_of("--case", r.name, {"terzaghi", "mandel", "cryer", "darcy"})];
+    using namespace poroelasticity;
+    constexpr decltype(r.run) runs[] = {run_terzaghi, run_mandel, run_cryer, run_darcy, run_creep, run_relaxation};
+    constexpr decltype(r.run) slow[] = {run_slow_terzaghi, run_slow_mandel, run_slow_cryer};
+    auto const which =
+        programs::index_of("--case", r.name, {"terzaghi", "mandel", "cryer", "darcy", "creep", "relaxation"});
+    if (r.slow && which == 3) lacuna::refuse("--slow-time", "--case darcy", "without it: its particles do not move");
+    r.run = r.slow && which < 3 ? slow[which] : runs[which];
     return r;
 }
 

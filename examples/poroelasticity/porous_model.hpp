@@ -88,13 +88,11 @@ public:
 
     /// Call after every step. \param dt s
     void add_step(network const& net, double dt) {
-        for (std::size_t k = 0; k < net.pores(); ++k)
-            gained_ += net.volume[k] * (net.pressure[k] - pressure_[k]) / bulk_modulus_ + (net.volume[k] - volume_[k]);
-        for (std::size_t t = net.interior_throats; t < net.open_throats(); ++t) {
-            double const moved = net.flow[t] * dt;
-            (moved > 0 ? in_ : out_) += std::fabs(moved);
-        }
-        remember(net);
+        add(net, dt, [](double strain) { return strain; });
+    }
+    /// Call after every step in slow time, in which the fluid's bulk modulus acts without linearisation.
+    void add_slow_step(network const& net, double dt) {
+        add(net, dt, [](double strain) { return std::expm1(strain); });
     }
     double inflow() const { return in_; }   ///< from reservoirs, m^3
     double outflow() const { return out_; } ///< to reservoirs, m^3
@@ -103,6 +101,17 @@ public:
     double error() const { return std::fabs(gained_ - (in_ - out_)) / (in_ + out_); }
 
 private:
+    template <class Stored>
+    void add(network const& net, double dt, Stored const& stored) {
+        for (std::size_t k = 0; k < net.pores(); ++k)
+            gained_ += net.volume[k] * stored((net.pressure[k] - pressure_[k]) / bulk_modulus_) +
+                       (net.volume[k] - volume_[k]);
+        for (std::size_t t = net.interior_throats; t < net.open_throats(); ++t) {
+            double const moved = net.flow[t] * dt;
+            (moved > 0 ? in_ : out_) += std::fabs(moved);
+        }
+        remember(net);
+    }
     void remember(network const& net) {
         pressure_.assign(net.pressure.begin(), net.pressure.end());
         volume_.assign(net.volume.begin(), net.volume.end());

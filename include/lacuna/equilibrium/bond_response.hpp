@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <Eigen/Cholesky>
-#include <Eigen/Core>
-#include <Eigen/Eigenvalues>
-
 #include <lacuna/core/dual.hpp>
+#include <lacuna/core/eigen_dense.hpp>
 #include <lacuna/core/fields.hpp>
 #include <lacuna/core/vec.hpp>
 #include <lacuna/equilibrium/pair_operator.hpp>

@@ -5,9 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include <Eigen/Core>
-#include <Eigen/QR>
-
+#include <lacuna/core/eigen_dense.hpp>
 #include <lacuna/core/standard.hpp>
 
 namespace lacuna {

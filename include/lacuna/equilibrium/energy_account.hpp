@@ -5,8 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include <Eigen/Core>
-
+#include <lacuna/core/eigen_dense.hpp>
 #include <lacuna/equilibrium/energy.hpp>
 #include <lacuna/equilibrium/system.hpp>
 #include <lacuna/simulation/simulation_state.hpp>

@@ -4,8 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Core>
-
+#include <lacuna/core/eigen_dense.hpp>
 #include <lacuna/equilibrium/coupled_solve.hpp>
 #include <lacuna/equilibrium/parameters.hpp>
 

@@ -8,8 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include <Eigen/Core>
-
+#include <lacuna/core/eigen_dense.hpp>
 #include <lacuna/core/eigen_sparse.hpp>
 #include <lacuna/equilibrium/elimination_order.hpp>
 #include <lacuna/equilibrium/elimination_tree.hpp>

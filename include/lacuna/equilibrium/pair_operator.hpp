@@ -3,8 +3,7 @@
 
 #include <cmath>
 
-#include <Eigen/Core>
-
+#include <lacuna/core/eigen_dense.hpp>
 #include <lacuna/core/vec.hpp>
 #include <lacuna/interactions/kinematics.hpp>
 

@@ -9,8 +9,7 @@
 #include <limits>
 #include <vector>
 
-#include <Eigen/Core>
-
+#include <lacuna/core/eigen_dense.hpp>
 #include <lacuna/core/points.hpp>
 #include <lacuna/core/vec.hpp>
 #include <lacuna/equilibrium/stiffness_matrix.hpp>

@@ -13,8 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include <Eigen/Core>
-
+#include <lacuna/core/eigen_dense.hpp>
 #include <lacuna/equilibrium/energy_account.hpp>
 #include <lacuna/equilibrium/event.hpp>
 #include <lacuna/equilibrium/interior_point.hpp>

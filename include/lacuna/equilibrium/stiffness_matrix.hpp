@@ -7,8 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include <Eigen/Core>
-
+#include <lacuna/core/eigen_dense.hpp>
 #include <lacuna/core/eigen_sparse.hpp>
 #include <lacuna/equilibrium/multifrontal_factor.hpp>
 

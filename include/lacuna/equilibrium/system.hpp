@@ -10,8 +10,7 @@
 #include <span>
 #include <vector>
 
-#include <Eigen/Core>
-
+#include <lacuna/core/eigen_dense.hpp>
 #include <lacuna/equilibrium/bond_response.hpp>
 #include <lacuna/equilibrium/contact_formula.hpp>
 #include <lacuna/equilibrium/frictional_contact.hpp>
