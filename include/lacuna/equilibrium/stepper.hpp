@@ -122,7 +122,7 @@ public:
     void settle(equilibrium_result& result, bool unless_balanced) {
         double const radius = median_radius(s_.store.radii());
         double regularisation = parameters_.regularisation;
-        int const factorised = system_.matrix().factorisations();
+        int const factorised = system_.factorisations();
         std::size_t const broken = events_.size();
         resistance_ = 0;
         tightness_ = 1;
@@ -149,7 +149,7 @@ public:
             }
             regularisation = next_regularisation(regularisation, result.trials.back().displacement);
         }
-        result.factorisations += system_.matrix().factorisations() - factorised;
+        result.factorisations += system_.factorisations() - factorised;
         result.fill = system_.matrix().fill();
         result.broken += events_.size() - broken;
         result.energy += account_.take();
@@ -207,7 +207,7 @@ public:
     void clear_events() noexcept { events_.clear(); }
     /// Sets the load that the next events get; none: the share of the increment.
     void set_event_load(std::optional<double> load) noexcept { given_load_ = load; }
-    int factorisations() noexcept { return system_.matrix().factorisations(); }
+    int factorisations() const noexcept { return system_.factorisations(); }
     equilibrium_energy take_energy() noexcept { return account_.take(); }
 
     /// \return whether the committed state is in equilibrium by the exact laws

@@ -82,15 +82,15 @@ public:
         start_.resize(s_.store.size());
         for (std::size_t k = 0; k < s_.store.size(); ++k) start_[k] = s_.store.position(k);
         find_pressures();
-        matrix_.begin(find_places());
+        matrix().begin(find_places());
         list_bonds();
         list_contacts();
         list_pores();
         own_elements_.clear();
         if (own_force_term::active(s_))
             for (std::size_t k = 0; k < s_.store.size(); ++k)
-                own_elements_.push_back(matrix_.add_element(numbers_.of(k).first(dim)));
-        matrix_.finish();
+                own_elements_.push_back(matrix().add_element(numbers_.of(k).first(dim)));
+        matrix().finish();
     }
 
     /// Sets the displacements of what is held.
@@ -135,7 +135,9 @@ public:
             if (pressures_ > 0) flow_.set_scale(stiffness, s_.store.positions(), s_.store.radii().data());
     }
     std::size_t contacts() const noexcept { return contacts_.size(); }
-    stiffness_matrix& matrix() noexcept { return matrix_; }
+    /// The stiffness; where fluid flows another one, which keeps its own pattern.
+    stiffness_matrix& matrix() noexcept { return matrix_[pressures_ > 0]; }
+    int factorisations() const noexcept { return matrix_[0].factorisations() + matrix_[1].factorisations(); }
 
     /// Largest force of a load, a pair or a pressure, N, at the last evaluation.
     double largest_force() const noexcept { return largest_; }
@@ -191,7 +193,7 @@ public:
         if constexpr (has_fluid<Model>)
             if (pressures_ > 0) flow_.update(u, s_.store.positions(), s_.store.radii().data());
         carried_.assign(start_.size(), 0.0);
-        matrix_.set_zero();
+        matrix().set_zero();
         forces.setZero(count());
         largest_ = 0;
         auto const to_unknown = [&](std::size_t k, int f, double force) {
@@ -207,7 +209,7 @@ public:
         if constexpr (has_fluid<Model>)
             for (auto& p : pores_) add_pore(p, to_unknown);
         if constexpr (has_fluid<Model>)
-            if (pressures_ > 0) flow_.linearise(forces, matrix_);
+            if (pressures_ > 0) flow_.linearise(forces, matrix());
     }
     /// Shortens the displacements of particles that carry no force, which are loose in their cages: nothing but the
     /// barrier moved them.
@@ -461,13 +463,13 @@ private:
         n.fill(-1);
         std::copy_n(numbers_.of(i).begin(), per_particle, n.begin());
         n[std::size_t(per_particle)] = numbers_.of_wall(w);
-        return matrix_.add_element(n);
+        return matrix().add_element(n);
     }
     std::size_t add_pair(std::size_t i, std::size_t j) {
         std::array<int, std::size_t(2 * per_particle)> n{};
         std::copy_n(numbers_.of(i).begin(), per_particle, n.begin());
         std::copy_n(numbers_.of(j).begin(), per_particle, n.begin() + per_particle);
-        return matrix_.add_element(n);
+        return matrix().add_element(n);
     }
     void find_pressures() {
         pressures_ = 0;
@@ -483,14 +485,14 @@ private:
         if constexpr (has_fluid<Model>) {
             if (!s_.filled()) return;
             auto const& net = s_.fluid.get()->network();
-            if (pressures_ > 0) flow_.begin(*s_.fluid.get(), flow_time_, numbers_, matrix_);
+            if (pressures_ > 0) flow_.begin(*s_.fluid.get(), flow_time_, numbers_, matrix());
             if (net.bare()) return;
             for (std::size_t p = 0; p < net.pores(); ++p) {
                 std::array<int, corners * std::size_t(dim)> n{};
                 for (std::size_t c = 0; c < corners; ++c)
                     for (int axis = 0; axis < dim; ++axis)
                         n[c * std::size_t(dim) + std::size_t(axis)] = numbers_.of(std::size_t(net.corner[c][p]), axis);
-                pores_.push_back({p, matrix_.add_element(n)});
+                pores_.push_back({p, matrix().add_element(n)});
             }
         }
     }
@@ -572,7 +574,7 @@ private:
             typename matrices::tensor stiffness;
             for (int a = 0; a < dim; ++a)
                 for (int b = 0; b < dim; ++b) stiffness(a, b) = 0.5 * (m[std::size_t(a)][b] + m[std::size_t(b)][a]);
-            system->matrix_.add(system->own_elements_[k], without_negative_directions(stiffness));
+            system->matrix().add(system->own_elements_[k], without_negative_directions(stiffness));
         }
     };
     void add_own_stiffness() {
@@ -626,7 +628,7 @@ private:
                 (matrices::tensor::Identity() - n * n.transpose()) * (f.normal_force / frame.motion.distance);
             stiffness += centres.transpose() * across * centres;
         }
-        matrix_.add(b.element, stiffness);
+        matrix().add(b.element, stiffness);
     }
     /// Forces of a bond on the freedoms of its particles, N.
     Eigen::Matrix<double, matrices::freedoms, 1> forces_of(bond_element const& b,
@@ -674,7 +676,7 @@ private:
                 k += matrices::force(c.frame, 0, c.point.soften(matrices::slip(c.frame, along))) * along.transpose();
             }
         }
-        matrix_.add(c.element, (c.b.transpose() * k * c.b).eval());
+        matrix().add(c.element, (c.b.transpose() * k * c.b).eval());
     }
     /// Frame of a contact at the present increment, and its relative displacement per freedom. In place of a second
     /// particle a wall has one freedom, along its normal.
@@ -743,12 +745,12 @@ private:
         Eigen::Matrix<double, int(corners) * dim, 1> g;
         for (std::size_t c = 0; c < corners; ++c)
             for (int axis = 0; axis < dim; ++axis) g[int(c) * dim + axis] = state.traction[c][axis];
-        matrix_.add(p.element, (g * g.transpose() * state.stiffness).eval());
+        matrix().add(p.element, (g * g.transpose() * state.stiffness).eval());
     }
 
     state_type& s_;
     unknowns<dim> numbers_;
-    stiffness_matrix matrix_;
+    std::array<stiffness_matrix, 2> matrix_; // without and with pressures
     bool drained_ = false;
     std::vector<double> given_, motion_; // of all freedoms, m
     exact_force_record<dim> now_;
