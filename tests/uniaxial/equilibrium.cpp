@@ -47,3 +47,21 @@ TEST_CASE("bonds fail at stresses that do not depend on the load step", "[equili
     CHECK(fine.curve.back().tension_cracks == coarse.curve.back().tension_cracks);
     CHECK_THAT(fine.strength, WithinRel(coarse.strength, 0.01));
 }
+
+TEST_CASE("a bonded specimen between platens comes to rest with any friction", "[equilibrium][friction]") {
+    for (double const friction : {0.0, 0.5, 1.0}) {
+        uniaxial::request q;
+        q.width = 0.012;
+        q.height = 0.024;
+        q.friction = friction;
+        q.elastic = true;
+        q.equilibrium = true;
+        q.strain = 0.002;
+        q.load_steps = 2;
+        auto const o = uniaxial::run(q);
+        CAPTURE(friction);
+        CHECK(o.ended == "strain");
+        // The platens hold the ends: a little stiffer with more friction.
+        CHECK_THAT(o.curve.back().stress, WithinRel(1.79e7, 0.03));
+    }
+}

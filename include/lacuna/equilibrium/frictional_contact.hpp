@@ -63,13 +63,14 @@ public:
         shear_residual_ = slip - (shear_ - before_) / shear_stiffness_ - shear_ * sliding_;
     }
     /// Chooses the barrier at which the next step aims.
-    void aim(double barrier) noexcept {
+    /// \param follows whether the limit of friction follows the normal force within the step, or only after it
+    void aim(double barrier, bool follows) noexcept {
         push_ = (barrier - force_ * gap_ - force_ * normal_residual_) / (gap_ + force_ / stiffness_);
         if (!rough()) return;
         double const c = cone();
         barrier_ = 2 * barrier;
         pull_ = soften(shear_residual_ - shear_ * ((barrier_ - sliding_ * c) / c));
-        follow_ = soften(shear_) * (2 * sliding_ * friction_ * friction_ * force_ / c);
+        follow_ = follows ? soften(shear_) * (2 * sliding_ * friction_ * friction_ * force_ / c) : shear{};
     }
     /// Larger error of the equations of the distance and of the slip, as the force that it stands for, N.
     double residual() const noexcept {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <lacuna/core/eigen_dense.hpp>
 #include <lacuna/equilibrium/coupled_solve.hpp>
@@ -48,6 +49,7 @@ public:
             error_ = std::max({largest(forces_), system_.flow_error(), system_.contact_residual()});
             if (n > 0 && converged()) return true;
             if (n > 0 && contacts()) lower_barrier();
+            watch_friction();
             system_.matrix().add_diagonal(scales_.regularisation, system_.displacements());
             // Bonds and fluid alone are almost linear: the factors stay good.
             bool const keeps_factors = linear() && n > 0 && error_ < 0.1 * before;
@@ -90,10 +92,22 @@ private:
         double const wait = std::min(product, 0.3 * error_ * error_ / scales_.stiffness);
         goal_ = std::max({0.5 * least_barrier(), factor * product, wait});
     }
+    /// With much friction Newton's steps may lead in a circle. Steps within which the limit of friction stays, as in
+    /// the fixed point of Acary and others, lead out of it; they are slow elsewhere.
+    void watch_friction() {
+        if (error_ < least_error_) {
+            least_error_ = error_;
+            idle_ = 0;
+        } else if ((idle_ += share_ > 0.5) > 12) {
+            follows_ = !follows_;
+            least_error_ = std::numeric_limits<double>::infinity();
+            idle_ = 0;
+        }
+    }
     vector find_step() {
-        system_.aim(goal_, forces_);
+        system_.aim(goal_, follows_, forces_);
         auto const solve = [&](vector const& x) { return system_.matrix().solve(x); };
-        if (!system_.rough()) return solve(forces_);
+        if (!follows_ || !system_.rough()) return solve(forces_);
         auto const product = [&](vector const& x) {
             vector y = system_.matrix().product(x);
             system_.add_coupling(x, y);
@@ -108,6 +122,9 @@ private:
     equilibrium_parameters const& parameters_;
     vector forces_;
     double goal_ = 0, share_ = 0, error_ = 0;
+    double least_error_ = std::numeric_limits<double>::infinity();
+    int idle_ = 0;        // long steps since the least error
+    bool follows_ = true; // whether the limit of friction follows the normal force within a step
 };
 
 } // namespace lacuna

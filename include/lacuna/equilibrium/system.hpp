@@ -227,9 +227,10 @@ public:
         }
     }
     /// Aims all contacts at a barrier and adds the changes of force that they ask for, N.
-    void aim(double barrier, vector& forces) {
+    /// \param follows see frictional_contact::aim()
+    void aim(double barrier, bool follows, vector& forces) {
         for (auto& c : contacts_) {
-            c.point.aim(barrier);
+            c.point.aim(barrier, follows);
             scatter(c, matrices::force(c.frame, -c.point.push(), c.point.pull()), 1.0, forces);
         }
     }
