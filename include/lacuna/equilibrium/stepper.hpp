@@ -315,7 +315,8 @@ protected:
         double const across = std::pow(double(s_.store.size()), dim == 2 ? 0.5 : 2.0 / 3);
         scales.force = std::max({system_.total_load() / across, count > 0 ? std::sqrt(squares / double(count)) : 0.0,
                                  0.1 * scales.stiffness * system_.largest_given()});
-        // A bond that has failed leaves forces that are far from balance: a small barrier would shorten the first steps.
+        // A bond that has failed leaves forces that are far from balance: a small barrier would shorten the first
+        // steps.
         if (last_.failures > 0)
             if (auto const left = system_.unbalanced(); left.size() > 0)
                 scales.force = std::max(scales.force, left.template lpNorm<Eigen::Infinity>());
