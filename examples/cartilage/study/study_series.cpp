@@ -124,7 +124,8 @@ void layer_order::add(std::vector<std::pair<std::string, std::optional<double>>>
     for (auto const& [name, moment] : moments) earliest = std::min(earliest, moment.value_or(1e300));
     packings += earliest < 1e300;
     for (auto const& [name, moment] : moments) {
-        auto known = std::find_if(layers.begin(), layers.end(), [&](layer const& l) { return l.name == name; });
+        auto const named = [&wanted = name](layer const& l) { return l.name == wanted; };
+        auto known = std::find_if(layers.begin(), layers.end(), named);
         if (known == layers.end()) known = layers.insert(layers.end(), {name, {}, 0});
         if (!moment) continue;
         known->times.push_back(*moment);

@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <numeric>
 #include <span>
 #include <vector>
 
@@ -44,12 +43,11 @@ public:
     using place = std::array<double, 3>;
 
     nested_dissection(node_graph const& graph, std::vector<place> const& places)
-        : graph_(graph), places_(places), order_(places.size()), side_(places.size(), none) {
-        std::iota(order_.begin(), order_.end(), 0);
-        auto const end = std::stable_partition(order_.begin(), order_.end(), [&](int node) {
-            return std::isfinite(places_[std::size_t(node)][0]);
-        });
-        cut(0, std::size_t(end - order_.begin()));
+        : graph_(graph), places_(places), side_(places.size(), none) {
+        add_nodes(true);
+        std::size_t const end = order_.size();
+        add_nodes(false);
+        cut(0, end);
     }
     /// Nodes in the order in which they are eliminated.
     std::vector<int> const& order() const noexcept { return order_; }
@@ -58,6 +56,10 @@ private:
     static constexpr char none = 0, left = 1, right = 2, across = 3;
     static constexpr std::size_t smallest = 8;
 
+    void add_nodes(bool with_place) {
+        for (std::size_t k = 0; k < places_.size(); ++k)
+            if (std::isfinite(places_[k][0]) == with_place) order_.push_back(int(k));
+    }
     void cut(std::size_t begin, std::size_t end) {
         if (end - begin <= smallest) return;
         auto const axis = std::size_t(longest_axis(begin, end));
