@@ -85,7 +85,7 @@ public:
         stepper_.give_wall(w, displacement);
     }
     /// Puts bonds into groups, for failure_choice::worst_of_groups: of each group one bond fails at once.
-    /// \param group_of number of the group of each bond, in the order of the input; negative: of none
+    /// \param group_of number of the group of each bond, in the order of the input; negative: of its own
     /// \throws std::invalid_argument unless there is one number per bond
     void group_bonds(std::vector<int> group_of) {
         std::size_t const bonds = s_.pairs.bond_records().size();
@@ -220,16 +220,18 @@ private:
     /// Goes from one value of a program to another, with all failures on the way.
     template <class Set>
     void reach(double& at, double target, Set& set, load_path& path) {
+        double const step = target - at;
         do {
-            if (at != target) approach(at, target, set, path);
-            if (!settle(at, set, path)) return;
+            bool const arrived = at == target || approach(at, target, step, set, path);
+            if (!settle(at, arrived, set, path)) return;
         } while (at != target);
     }
     /// Makes one increment towards a value. It ends where the first bond fails. A solve that does not converge, or that
     /// is not in balance at the failure, is made again with less.
+    /// \param step of the program, from which less is measured
+    /// \return false: the value and its loads are those of an eighth of the step further on, but nothing has moved yet
     template <class Set>
-    void approach(double& at, double target, Set& set, load_path& path) {
-        double const least = 1e-3 * (target - at);
+    bool approach(double& at, double target, double step, Set& set, load_path& path) {
         double to = target;
         for (;;) {
             set_loads(set, at, to);
@@ -238,7 +240,7 @@ private:
                 continue;
             }
             ++path.solves;
-            bool const tiny = std::fabs(to - at) <= std::fabs(least);
+            bool const tiny = std::fabs(to - at) <= std::fabs(step) / 64;
             if (!stepper_.find_increment(stepper_.settings().regularisation)) {
                 if (tiny) break;
                 to = at + 0.5 * (to - at);
@@ -249,21 +251,23 @@ private:
             set_loads(set, to, to);
             if (part < 1 && !tiny && stepper_.unbalance_at_part() > straight) continue;
             stepper_.set_event_load(to);
-            equilibrium_result step;
-            stepper_.take_increment(stepper_.settings().regularisation, step);
+            equilibrium_result taken;
+            stepper_.take_increment(stepper_.settings().regularisation, taken);
             path.energy += stepper_.take_energy();
             at = to;
-            return;
+            return true;
         }
-        // The interior point fails from here even for a small step: regularised solves at the new load may do it.
+        // The interior point fails from here even for a small step. Regularised solves may do it.
+        to = std::fabs(target - at) <= std::fabs(step) / 8 ? target : at + step / 8;
         set_loads(set, at, to);
-        stepper_.set_event_load(to);
         at = to;
+        return false;
     }
+    /// \param arrived false: what is displaced has still to be moved
     /// \return whether there is an equilibrium at constant load
     template <class Set>
-    bool settle(double at, Set& set, load_path& path) {
-        set_loads(set, at, at);
+    bool settle(double at, bool arrived, Set& set, load_path& path) {
+        if (arrived) set_loads(set, at, at);
         stepper_.set_event_load(at);
         equilibrium_result result;
         stepper_.settle(result, true);

@@ -165,6 +165,25 @@ TEST_CASE("an observer ends a stage of a load program", "[equilibrium][loads]") 
     REQUIRE_THAT(sim.position(4)[0] - 8 * radius, WithinRel(3 / (stiffness / 4), 1e-6));
 }
 
+TEST_CASE("what is displaced arrives, also where only regularised solves converge", "[equilibrium][loads]") {
+    int reached = 0;
+    for (int iterations = 2; iterations < 30; ++iterations) {
+        lacuna::simulation<plane> sim(chain<2>(2, false), springs<plane>(stiffness, stiffness, 0.3));
+        sim.fix(0);
+        sim.fix(1);
+        auto const start = sim.position(1);
+        lacuna::equilibrium<plane> eq(sim, {.iterations = iterations});
+        auto const path =
+            eq.follow({0, 1e-3, 3}, [&](double from, double to) { eq.move(1, {from - to, 0.5 * (to - from)}); });
+        CAPTURE(iterations);
+        if (!path.reached()) continue;
+        ++reached;
+        REQUIRE_THAT(start[0] - sim.position(1)[0], WithinAbs(1e-3, 1e-12));
+        REQUIRE_THAT(sim.position(1)[1] - start[1], WithinAbs(5e-4, 1e-12));
+    }
+    REQUIRE(reached > 10);
+}
+
 TEST_CASE("a load program refuses what has no meaning", "[equilibrium][loads]") {
     auto sim = ropes({10});
     lacuna::equilibrium<plane> eq(sim, {.failures = lacuna::failure_choice::worst_of_groups});

@@ -70,7 +70,7 @@ public:
         return most > longest * (1 + 1e-9) ? longest / most : 1.0;
     }
 
-    /// \param group_of group of each bond; negative: none
+    /// \param group_of group of each bond; negative: its own
     void group_bonds(std::vector<int> group_of) { group_of_ = std::move(group_of); }
 
     /// Refuses what no equilibrium knows. Brings histories and lists up to date with the positions of the last step,
